@@ -1,0 +1,121 @@
+"""Asking: one query or many, in one world."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from engine import layout as at
+from engine.errors import OutdoorsError, QueryError, RecursionBoundError
+from engine.kernels.collisions import collide_many
+from engine.kernels.resolving import resolve_many as resolve_rows
+from engine.query import CollisionCall, Move, collision_rows, move_rows
+
+if TYPE_CHECKING:
+    from collections.abc import Callable, Sequence
+
+    from engine.query import Rows
+    from engine.world import World
+
+
+def resolve(world: World, move: Move) -> Any:
+    """Move, or put down, one mover.
+
+    Parameters
+    ----------
+    world : World
+    move : Move
+
+    Returns
+    -------
+    numpy record of `engine.layout.RESULT_DTYPE`
+        ``result`` is 1 if the mover got somewhere (``curr``), 0 if there was no movement. Cells are
+        given by their index in ``world.cell_ids``.
+
+    Raises
+    ------
+    QueryError, PoseError
+        If the move cannot be asked about.
+    OutdoorsError
+        If the mover leaves for the landscape.
+
+    Notes
+    -----
+    retail: CTransition::find_valid_position 0x0050C310, documents 04 and 05
+    """
+    return resolve_many(world, [move])[0]
+
+
+def resolve_many(world: World, moves: Sequence[Move] | Rows) -> Rows:
+    """Move many movers, each as if it were alone; results in the same order.
+
+    `moves` are Move objects, or rows of `engine.layout.QUERY_DTYPE` made by `engine.query.move_rows`.
+    See `resolve`.
+    """
+    rows = moves if isinstance(moves, np.ndarray) else move_rows(world, moves)
+    return _run(resolve_rows, world, rows)
+
+
+def find_collisions(world: World, call: CollisionCall) -> Any:
+    """Test one mover against one tree, with a given state of its path.
+
+    Returns
+    -------
+    numpy record of `engine.layout.RESULT_DTYPE`
+        ``result`` is a TransitionState (`engine.constants.STATE_NAMES`).
+
+    Raises
+    ------
+    QueryError, PoseError
+        If it cannot be asked about.
+
+    Notes
+    -----
+    retail: BSPTREE::find_collisions 0x0053A440 and BSPTREE::placement_insert 0x00539960
+    """
+    return find_collisions_many(world, [call])[0]
+
+
+def find_collisions_many(world: World, calls: Sequence[CollisionCall] | Rows) -> Rows:
+    """Make many collision calls, each as if it were alone; results in the same order.
+
+    `calls` are CollisionCall objects, or rows made by `engine.query.collision_rows`.
+    See `find_collisions`.
+    """
+    rows = calls if isinstance(calls, np.ndarray) else collision_rows(world, calls)
+    return _run(collide_many, world, rows)
+
+
+def _run(kernel: Callable[..., None], world: World, rows: Rows) -> Rows:
+    if rows.dtype != at.QUERY_DTYPE:
+        raise QueryError("rows", "not of engine.layout.QUERY_DTYPE")
+    queries = np.ascontiguousarray(rows)
+    results = np.zeros(len(rows), dtype=at.RESULT_DTYPE)
+    kernel(
+        world.floats,
+        world.ints,
+        world.new_row(),
+        queries.view(np.float64).reshape(len(rows), at.QUERY_SIZE),
+        results.view(np.float64).reshape(len(rows), at.RESULT_SIZE),
+    )
+    check_status(results["status"])
+    return results
+
+
+def check_status(status: Any) -> None:
+    """Raise the error that the status of any query stands for.
+
+    Parameters
+    ----------
+    status : array of float
+        ``status`` of result rows.
+
+    Raises
+    ------
+    OutdoorsError, RecursionBoundError
+    """
+    for index in np.flatnonzero(status != at.STATUS_OK):
+        if status[index] == at.STATUS_OUTDOORS:
+            raise OutdoorsError(f"query {index}: the mover came to the landscape, which is not in the world")
+        raise RecursionBoundError(f"query {index}: status {int(status[index])}")

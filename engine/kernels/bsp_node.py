@@ -1,0 +1,127 @@
+"""What all walks through a tree share (03, 1): bounding test, side of a sphere, the stack.
+
+Walks are loops over an explicit stack, so a tree may be of any depth. The stack lies behind the
+query's row, where the world's header says, and has a place for every level of the deepest tree.
+"""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from engine.constants import EPS
+from engine.kernels.compile import inlined
+from engine.kernels.polygon import plane_distance
+from engine.layout import (
+    KIND_NODE,
+    KIND_SOLID_LEAF,
+    LEAF_COUNT,
+    LEAF_FIRST,
+    NODE_FLOATS,
+    NODE_INTS,
+    NODE_KIND,
+    NODE_NEGATIVE,
+    NODE_POSITIVE,
+    NODE_SPHERE,
+)
+
+if TYPE_CHECKING:
+    from engine.kernels.types import Array, Ints
+
+POSITIVE_SIDE: int = 0
+NEGATIVE_SIDE: int = 1
+BOTH_SIDES: int = 2
+
+
+@inlined
+def spheres_intersect(
+    ax: float, ay: float, az: float, ar: float, bx: float, by: float, bz: float, br: float
+) -> bool:
+    """Say whether two spheres overlap, touch, or nearly do.
+
+    retail: CSphere::intersects 0x005344A0, 01 3.1
+    """
+    dx, dy, dz = ax - bx, ay - by, az - bz
+    rs = br + ar
+    return ((dx * dx + dy * dy) + dz * dz) - rs * rs < EPS
+
+
+@inlined
+def in_bounds(wf: Array, node: int, x: float, y: float, z: float, r: float) -> bool:
+    """Test a sphere against a node's bounding sphere.
+
+    retail: BN-1
+    """
+    b = NODE_FLOATS * node + NODE_SPHERE
+    return spheres_intersect(wf[b], wf[b + 1], wf[b + 2], wf[b + 3], x, y, z, r)
+
+
+@inlined
+def splitting_distance(wf: Array, node: int, x: float, y: float, z: float) -> float:
+    """Return a point's distance from the splitting plane, in a register.
+
+    retail: BN-2
+    """
+    return plane_distance(wf, NODE_FLOATS * node, x, y, z)
+
+
+@inlined
+def side_of(dist: float, reach: float) -> int:
+    """Say which children a sphere of that reach touches.
+
+    retail: BN-4
+    """
+    if dist >= reach:
+        return POSITIVE_SIDE
+    if dist <= -reach:
+        return NEGATIVE_SIDE
+    return BOTH_SIDES
+
+
+@inlined
+def is_leaf(wi: Ints, node: int) -> bool:
+    """Say whether a tree ends here."""
+    return wi[NODE_INTS * node + NODE_KIND] != KIND_NODE
+
+
+@inlined
+def is_solid(wi: Ints, leaf: int) -> bool:
+    """Say whether a leaf is flagged as solid."""
+    return wi[NODE_INTS * leaf + NODE_KIND] == KIND_SOLID_LEAF
+
+
+@inlined
+def positive(wi: Ints, node: int) -> int:
+    """Return the child in front of the splitting plane."""
+    return wi[NODE_INTS * node + NODE_POSITIVE]
+
+
+@inlined
+def negative(wi: Ints, node: int) -> int:
+    """Return the child behind the splitting plane."""
+    return wi[NODE_INTS * node + NODE_NEGATIVE]
+
+
+@inlined
+def leaf_polygons(wi: Ints, leaf: int) -> tuple[int, int]:
+    """Return where a leaf's list of polygons begins, and its length."""
+    at = NODE_INTS * leaf
+    return wi[at + LEAF_FIRST], wi[at + LEAF_COUNT]
+
+
+@inlined
+def descend(
+    wf: Array, wi: Ints, s: Array, node: int, x: float, y: float, z: float, reach: float, top: int
+) -> tuple[int, int]:
+    """Go on to a child, the positive one first; leave the negative one on the stack if both are touched.
+
+    Returns the child and the top of the stack.
+
+    retail: BN-4
+    """
+    side = side_of(splitting_distance(wf, node, x, y, z), reach)
+    if side == NEGATIVE_SIDE:
+        return negative(wi, node), top
+    if side == BOTH_SIDES:
+        s[top] = negative(wi, node)
+        return positive(wi, node), top + 1
+    return positive(wi, node), top

@@ -1,0 +1,170 @@
+"""Which polygon can a sphere rest on (03, 5-6)."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from engine.constants import EPS
+from engine.kernels.bsp_node import descend, in_bounds, is_leaf, leaf_polygons
+from engine.kernels.compile import entry, kernel
+from engine.kernels.polygon import polygon_walkable_hits_sphere
+from engine.kernels.polygon_adjust import polygon_adjust_sphere_to_plane
+from engine.kernels.polygon_support import polygon_check_small_walkable
+from engine.layout import (
+    NO_POLYGON,
+    NODES_VISITED,
+    POLYGONS_TESTED,
+    WALK_INTERP,
+    WALKABLE_ALLOWANCE,
+    WORLD_STACK,
+)
+
+if TYPE_CHECKING:
+    from engine.kernels.types import Array, Ints
+
+
+@kernel
+def _leaf_find_walkable(
+    wf: Array,
+    wi: Ints,
+    s: Array,
+    leaf: int,
+    x: float,
+    y: float,
+    z: float,
+    r: float,
+    mx: float,
+    my: float,
+    mz: float,
+    ux: float,
+    uy: float,
+    uz: float,
+    poly: int,
+) -> tuple[int, float, float, float]:
+    """Put the sphere on every polygon of a leaf that takes it; the last one wins.
+
+    retail: FW-4, FW-5
+    """
+    first, count = leaf_polygons(wi, leaf)
+    if count == 0 or not in_bounds(wf, leaf, x, y, z, r):
+        return poly, x, y, z
+    for i in range(first, first + count):
+        p = wi[i]
+        s[POLYGONS_TESTED] += 1
+        if polygon_walkable_hits_sphere(wf, p, x, y, z, r, ux, uy, uz, s[WALKABLE_ALLOWANCE]):
+            moved, x, y, z, interp = polygon_adjust_sphere_to_plane(
+                wf, p, r, x, y, z, mx, my, mz, s[WALK_INTERP]
+            )
+            if moved:
+                s[WALK_INTERP] = interp
+                poly = p
+    return poly, x, y, z
+
+
+@entry
+def find_walkable(
+    wf: Array,
+    wi: Ints,
+    s: Array,
+    root: int,
+    x: float,
+    y: float,
+    z: float,
+    r: float,
+    mx: float,
+    my: float,
+    mz: float,
+    ux: float,
+    uy: float,
+    uz: float,
+) -> tuple[int, float, float, float]:
+    """Move a sphere back along its movement on to the polygons that can be walked on.
+
+    Returns the last polygon that moved it (`NO_POLYGON`: none did) and the centre; walk_interp in the
+    row is ratcheted down.
+
+    retail: BSPNODE::find_walkable 0x0053CC80, FW-1...FW-5
+    """
+    base = wi[WORLD_STACK]
+    top = base
+    node = root
+    reach = r - EPS
+    poly = NO_POLYGON
+    while True:
+        s[NODES_VISITED] += 1
+        if is_leaf(wi, node):
+            poly, x, y, z = _leaf_find_walkable(wf, wi, s, node, x, y, z, r, mx, my, mz, ux, uy, uz, poly)
+        elif in_bounds(wf, node, x, y, z, r):
+            node, top = descend(wf, wi, s, node, x, y, z, reach, top)
+            continue
+        if top == base:
+            return poly, x, y, z
+        top -= 1
+        node = int(s[top])
+
+
+@kernel
+def _leaf_hits_walkable(
+    wf: Array,
+    wi: Ints,
+    s: Array,
+    leaf: int,
+    x: float,
+    y: float,
+    z: float,
+    r: float,
+    ux: float,
+    uy: float,
+    uz: float,
+) -> bool:
+    """Say whether a leaf has a polygon that supports the sphere.
+
+    retail: BSPLEAF::hits_walkable 0x0053D670, 03 6
+    """
+    first, count = leaf_polygons(wi, leaf)
+    if count == 0 or not in_bounds(wf, leaf, x, y, z, r):
+        return False
+    for i in range(first, first + count):
+        p = wi[i]
+        s[POLYGONS_TESTED] += 1
+        if polygon_walkable_hits_sphere(
+            wf, p, x, y, z, r, ux, uy, uz, s[WALKABLE_ALLOWANCE]
+        ) and polygon_check_small_walkable(wf, p, x, y, z, r, ux, uy, uz):
+            return True
+    return False
+
+
+@entry
+def hits_walkable(
+    wf: Array,
+    wi: Ints,
+    s: Array,
+    root: int,
+    x: float,
+    y: float,
+    z: float,
+    r: float,
+    ux: float,
+    uy: float,
+    uz: float,
+) -> bool:
+    """Say whether any polygon supports the sphere; nothing is moved.
+
+    retail: BSPNODE::hits_walkable 0x0053CBD0, 03 6
+    """
+    base = wi[WORLD_STACK]
+    top = base
+    node = root
+    reach = r - EPS
+    while True:
+        s[NODES_VISITED] += 1
+        if is_leaf(wi, node):
+            if _leaf_hits_walkable(wf, wi, s, node, x, y, z, r, ux, uy, uz):
+                return True
+        elif in_bounds(wf, node, x, y, z, r):
+            node, top = descend(wf, wi, s, node, x, y, z, reach, top)
+            continue
+        if top == base:
+            return False
+        top -= 1
+        node = int(s[top])

@@ -1,0 +1,265 @@
+"""SPHEREPATH (04, 4): where the mover is, where it may go, and its spheres in each space."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from engine.constants import FIRST_INDOOR, PLACEMENT_INSERT, TRANSITION_INSERT
+from engine.kernels.compile import entry, inlined, kernel
+from engine.kernels.position import block_offset, position_localtolocal
+from engine.kernels.rounding import f32
+from engine.kernels.vector import copy, load, store
+from engine.layout import (
+    BACKUP_CELL,
+    BACKUP_CHECK_POS,
+    BEGIN_CELL,
+    BEGIN_POS,
+    CELL_ARRAY_VALID,
+    CHECK_CELL,
+    CHECK_POS,
+    COLLIDE,
+    CURR_CELL,
+    CURR_POS,
+    END_POS,
+    GLOBAL_CURR_CENTER,
+    GLOBAL_LOW_POINT,
+    GLOBAL_SPHERE,
+    HAS_BEGIN_POS,
+    INSERT_TYPE,
+    LOCAL_LOW_POINT,
+    LOCAL_SPHERE,
+    LOCALSPACE_CURR_CENTER,
+    LOCALSPACE_LOW_POINT,
+    LOCALSPACE_POS,
+    LOCALSPACE_SPHERE,
+    LOCALSPACE_Z,
+    MATRIX,
+    NEG_COLLISION_NORMAL,
+    NEG_POLY_HIT,
+    NEG_STEP_UP,
+    NUM_SPHERE,
+    ORIGIN,
+    POSITION_SIZE,
+    RADIUS,
+    SPHERE_SIZE,
+    STEP_UP_NORMAL,
+    VECTOR_SIZE,
+    WALK_INTERP,
+    WALKABLE,
+    WALKABLE_CHECK_POS,
+    WALKABLE_POS,
+    WALKABLE_SCALE,
+    WALKABLE_UP,
+)
+
+if TYPE_CHECKING:
+    from engine.kernels.types import Array, Vector
+
+
+@kernel
+def init_path(s: Array) -> None:
+    """Start at begin_pos, or, for a placement, at end_pos.
+
+    retail: SPHEREPATH::init_path 0x0050CE20, SPP-1...SPP-4
+    """
+    placed = s[HAS_BEGIN_POS] == 0.0
+    copy(s, CURR_POS, s, END_POS if placed else BEGIN_POS, POSITION_SIZE)
+    s[CURR_CELL] = s[BEGIN_CELL]
+    cache_global_curr_center(s)
+    s[INSERT_TYPE] = PLACEMENT_INSERT if placed else TRANSITION_INSERT
+
+
+@kernel
+def cache_global_curr_center(s: Array) -> None:
+    """Put the spheres' centres at the current position.
+
+    retail: SPHEREPATH::cache_global_curr_center 0x0050C740, 04 4
+    """
+    m, o = CURR_POS + MATRIX, CURR_POS + ORIGIN
+    for i in range(int(s[NUM_SPHERE])):
+        x, y, z = load(s, LOCAL_SPHERE + SPHERE_SIZE * i)
+        store(
+            s,
+            GLOBAL_CURR_CENTER + 3 * i,
+            f32(((x * s[m] + y * s[m + 3]) + z * s[m + 6]) + s[o]),
+            f32(((s[m + 7] * z + x * s[m + 1]) + s[m + 4] * y) + s[o + 1]),
+            f32(((s[m + 8] * z + s[m + 5] * y) + s[m + 2] * x) + s[o + 2]),
+        )
+
+
+@kernel
+def cache_global_sphere(s: Array) -> None:
+    """Put the spheres and the low point at the check position.
+
+    retail: SPHEREPATH::cache_global_sphere 0x0050C810, 04 4, form B
+    """
+    m, o = CHECK_POS + MATRIX, CHECK_POS + ORIGIN
+    for i in range(int(s[NUM_SPHERE])):
+        local = LOCAL_SPHERE + SPHERE_SIZE * i
+        x, y, z = load(s, local)
+        at = GLOBAL_SPHERE + SPHERE_SIZE * i
+        s[at + RADIUS] = s[local + RADIUS]
+        store(
+            s,
+            at,
+            f32(((x * s[m] + y * s[m + 3]) + z * s[m + 6]) + s[o]),
+            f32(((s[m + 7] * z + x * s[m + 1]) + s[m + 4] * y) + s[o + 1]),
+            f32(((s[m + 8] * z + s[m + 2] * x) + s[m + 5] * y) + s[o + 2]),
+        )
+    x, y, z = load(s, LOCAL_LOW_POINT)
+    store(
+        s,
+        GLOBAL_LOW_POINT,
+        f32(((s[m + 6] * z + s[m] * x) + s[m + 3] * y) + s[o]),
+        f32(((s[m + 7] * z + s[m + 1] * x) + s[m + 4] * y) + s[o + 1]),
+        f32(((s[m + 8] * z + s[m + 2] * x) + s[m + 5] * y) + s[o + 2]),
+    )
+
+
+@inlined
+def _add(s: Array, at: int, x: float, y: float, z: float) -> None:
+    """Add a vector to three stored numbers."""
+    store(s, at, f32(s[at] + x), f32(s[at + 1] + y), f32(s[at + 2] + z))
+
+
+@kernel
+def shift_global_sphere(s: Array, x: float, y: float, z: float) -> None:
+    """Move the spheres and the low point; rounding errors add up, as in retail.
+
+    retail: SPHEREPATH::cache_global_sphere 0x0050C810, 04 4, form A
+    """
+    for i in range(int(s[NUM_SPHERE])):
+        _add(s, GLOBAL_SPHERE + SPHERE_SIZE * i, x, y, z)
+    _add(s, GLOBAL_LOW_POINT, x, y, z)
+
+
+@kernel
+def add_offset_to_check_pos(s: Array, x: float, y: float, z: float) -> None:
+    """Move the check position and its spheres by a stored vector.
+
+    retail: SPHEREPATH::add_offset_to_check_pos 0x00509D10, AO-1...AO-3
+    """
+    s[CELL_ARRAY_VALID] = 0.0
+    _add(s, CHECK_POS + ORIGIN, x, y, z)
+    shift_global_sphere(s, x, y, z)
+
+
+@inlined
+def _localspace_point(a: Array, p: int, s: Array, pos: int, sphere: int, inv: float) -> Vector:
+    """Take a sphere's centre at a position into the space of p, divided by its scale.
+
+    retail: LS-2
+    """
+    x, y, z = load(s, sphere)
+    vx, vy, vz = position_localtolocal(a, p, s, pos, x, y, z)
+    return f32(inv * vx), f32(inv * vy), f32(inv * vz)
+
+
+@entry
+def cache_localspace_sphere(s: Array, a: Array, p: int, scale: float) -> None:
+    """Put the spheres, at the check and the current position, into the space of what is tested.
+
+    `a`, `p`: the position of that space; `scale`: of the thing tested.
+
+    retail: SPHEREPATH::cache_localspace_sphere 0x0050C9D0, LS-1...LS-5
+    """
+    inv = f32(1.0 / scale)
+    for i in range(int(s[NUM_SPHERE])):
+        local = LOCAL_SPHERE + SPHERE_SIZE * i
+        at = LOCALSPACE_SPHERE + SPHERE_SIZE * i
+        s[at + RADIUS] = f32(inv * s[local + RADIUS])
+        x, y, z = _localspace_point(a, p, s, CHECK_POS, local, inv)
+        store(s, at, x, y, z)
+        x, y, z = _localspace_point(a, p, s, CURR_POS, local, inv)
+        store(s, LOCALSPACE_CURR_CENTER + 3 * i, x, y, z)
+    copy(s, LOCALSPACE_POS, a, p, POSITION_SIZE)
+    m = LOCALSPACE_POS + MATRIX
+    ux = f32((s[m + 1] + s[m]) * 0.0 + s[m + 2])
+    uy = f32((s[m + 4] + s[m + 3]) * 0.0 + s[m + 5])
+    uz = f32((s[m + 7] + s[m + 6]) * 0.0 + s[m + 8])
+    store(s, LOCALSPACE_Z, ux, uy, uz)
+    r = s[LOCALSPACE_SPHERE + RADIUS]
+    by, bz = f32(r * uy), f32(r * uz)
+    x, y, z = load(s, LOCALSPACE_SPHERE)
+    store(s, LOCALSPACE_LOW_POINT, f32(x - r * ux), f32(y - by), f32(z - bz))
+
+
+@entry
+def set_check_pos(s: Array, p: int, cell: float) -> None:
+    """Go to another position of the row, and recompute the spheres.
+
+    retail: SPHEREPATH::set_check_pos 0x0050A8B0, 04 4
+    """
+    copy(s, CHECK_POS, s, p, POSITION_SIZE)
+    s[CHECK_CELL] = cell
+    s[CELL_ARRAY_VALID] = 0.0
+    cache_global_sphere(s)
+
+
+@kernel
+def save_check_pos(s: Array) -> None:
+    """Remember the check position in the one slot there is.
+
+    retail: SPHEREPATH::save_check_pos 0x0050A880, 04 4
+    """
+    s[BACKUP_CELL] = s[CHECK_CELL]
+    copy(s, BACKUP_CHECK_POS, s, CHECK_POS, POSITION_SIZE)
+
+
+@kernel
+def restore_check_pos(s: Array) -> None:
+    """Go back to the remembered check position.
+
+    retail: SPHEREPATH::restore_check_pos 0x0050B100, 04 4
+    """
+    set_check_pos(s, BACKUP_CHECK_POS, s[BACKUP_CELL])
+
+
+@kernel
+def adjust_check_pos(s: Array, cell_id: float) -> None:
+    """Express the check position in a cell's block.
+
+    retail: SPHEREPATH::adjust_check_pos 0x0050CC00, AC-1, AC-2
+    """
+    if (int(cell_id) & 0xFFFF) < FIRST_INDOOR:
+        bx, by = block_offset(cell_id, s[CHECK_POS])
+        shift_global_sphere(s, bx, by, 0.0)
+        _add(s, CHECK_POS + ORIGIN, bx, by, 0.0)
+    s[CHECK_POS] = cell_id
+
+
+@kernel
+def set_collide(s: Array, x: float, y: float, z: float) -> None:
+    """Note that an airborne mover struck something, so that a landing is tried.
+
+    retail: SPHEREPATH::set_collide 0x005378A0, 04 4
+    """
+    s[COLLIDE] = 1.0
+    save_check_pos(s)
+    store(s, STEP_UP_NORMAL, x, y, z)
+    s[WALK_INTERP] = 1.0
+
+
+@inlined
+def set_neg_poly_hit(s: Array, step_up: float, x: float, y: float, z: float) -> None:
+    """Note an overlapped polygon that faces along the movement; its normal is stored negated.
+
+    retail: SPHEREPATH::set_neg_poly_hit 0x005398E0, 04 4
+    """
+    s[NEG_STEP_UP] = step_up
+    s[NEG_POLY_HIT] = 1.0
+    store(s, NEG_COLLISION_NORMAL, -x, -y, -z)
+
+
+@kernel
+def set_walkable(s: Array, x: float, y: float, z: float, r: float, poly: int, scale: float) -> None:
+    """Note the polygon that supports the mover, with the sphere and the space it was found in.
+
+    retail: SPHEREPATH::set_walkable 0x00539FC0, 04 4
+    """
+    store(s, WALKABLE_CHECK_POS, x, y, z)
+    s[WALKABLE_CHECK_POS + RADIUS] = r
+    s[WALKABLE] = poly
+    copy(s, WALKABLE_UP, s, LOCALSPACE_Z, VECTOR_SIZE)
+    copy(s, WALKABLE_POS, s, LOCALSPACE_POS, POSITION_SIZE)
+    s[WALKABLE_SCALE] = scale

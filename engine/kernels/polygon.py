@@ -1,0 +1,189 @@
+"""CPolygon (02): its plane, and tests of a sphere or point against it.
+
+``p`` is the offset of a polygon record in the world's floats. Spheres are three numbers and a radius,
+in the polygon's own space.
+"""
+
+from __future__ import annotations
+
+import math
+from typing import TYPE_CHECKING
+
+from engine.constants import EPS
+from engine.kernels.compile import entry, inlined
+from engine.kernels.polygon_edges import BEYOND, HIT, any_edge_near, disc_touches, last_vertex
+from engine.kernels.rounding import f32
+from engine.kernels.vector import dot_x
+from engine.layout import POLYGON_COUNT, POLYGON_VERTICES
+
+if TYPE_CHECKING:
+    from engine.kernels.types import Array, Vector
+
+
+@inlined
+def plane_distance(wf: Array, at: int, x: float, y: float, z: float) -> float:
+    """Return the signed distance of a point from the plane at `at`, in a register.
+
+    retail: 01 1.2
+    """
+    return dot_x(wf[at], wf[at + 1], wf[at + 2], x, y, z) + wf[at + 3]
+
+
+@inlined
+def along_normal(wf: Array, at: int, x: float, y: float, z: float) -> float:
+    """Return the component of a vector along the normal of the plane at `at`, in a register.
+
+    retail: 01 1.2
+    """
+    return dot_x(x, y, z, wf[at], wf[at + 1], wf[at + 2])
+
+
+@inlined
+def _contact(wf: Array, p: int, dist: float, x: float, y: float, z: float) -> Vector:
+    """Project a sphere's centre on the plane.
+
+    retail: PH-3
+    """
+    pz = f32(dist * wf[p + 2])
+    return f32(x - dist * wf[p]), f32(y - dist * wf[p + 1]), f32(z - pz)
+
+
+@entry
+def polygon_make_plane(wf: Array, p: int) -> None:
+    """Compute and store the plane from the vertices; NaN for a polygon without area.
+
+    retail: CPolygon::make_plane 0x005383D0, MP-1...MP-6
+    """
+    n = int(wf[p + POLYGON_COUNT])
+    first = p + POLYGON_VERTICES
+    sx, sy, sz = 0.0, 0.0, 0.0
+    for k in range(1, n - 1):
+        a = first + 3 * k
+        b = a + 3
+        bx, by, bz = wf[b] - wf[first], wf[b + 1] - wf[first + 1], wf[b + 2] - wf[first + 2]
+        ax, ay, az = f32(wf[a] - wf[first]), f32(wf[a + 1] - wf[first + 1]), wf[a + 2] - wf[first + 2]
+        sx = sx + f32(ay * bz - az * by)
+        sy = sy + f32(az * bx - bz * ax)
+        sz = f32((by * ax - ay * bx) + sz)
+    inv = 1.0 / math.sqrt((sz * sz + sy * sy) + sx * sx)
+    inv32 = f32(inv)
+    nx, ny, nz = f32(inv * sx), f32(inv32 * sy), f32(inv32 * sz)
+    total = 0.0
+    for k in range(n):
+        v = first + 3 * k
+        total = ((total + nz * wf[v + 2]) + ny * wf[v + 1]) + nx * wf[v]
+    wf[p] = nx
+    wf[p + 1] = ny
+    wf[p + 2] = nz
+    wf[p + 3] = f32(-(total / float(n)))
+
+
+@entry
+def polygon_point_in_poly2d(wf: Array, p: int, x: float, y: float, side: int) -> bool:
+    """Say whether a point lies on the accepted side of every edge, seen along z.
+
+    retail: CPolygon::point_in_poly2D 0x00538060, P2-1...P2-4
+    """
+    first = p + POLYGON_VERTICES
+    prev = first
+    for i in range(int(wf[p + POLYGON_COUNT]) - 1, -1, -1):
+        cur = first + 3 * i
+        a = wf[prev + 1] - wf[cur + 1]
+        b = wf[cur] - wf[prev]
+        s = ((-(a * wf[cur]) - b * wf[cur + 1]) + b * y) + a * x
+        if side == 0:
+            if s > 0.0:
+                return False
+        elif s < 0.0:
+            return False
+        prev = cur
+    return True
+
+
+@entry
+def polygon_point_in_polygon(wf: Array, p: int, x: float, y: float, z: float) -> bool:
+    """Say whether a point is inside every edge, whatever its distance from the plane.
+
+    retail: CPolygon::point_in_polygon 0x00538D90, PP-1...PP-3
+    """
+    nx, ny, nz = wf[p], wf[p + 1], wf[p + 2]
+    n = int(wf[p + POLYGON_COUNT])
+    prev = last_vertex(p, n)
+    for i in range(n):
+        cur = p + POLYGON_VERTICES + 3 * i
+        ex, ey, ez = wf[cur] - wf[prev], wf[cur + 1] - wf[prev + 1], wf[cur + 2] - wf[prev + 2]
+        cx = f32(ez * ny - ey * nz)
+        cy = f32(ex * nz - ez * nx)
+        cz = ey * nx - ex * ny
+        if ((z - wf[prev + 2]) * cz + (y - wf[prev + 1]) * cy) + (x - wf[prev]) * cx < 0.0:
+            return False
+        prev = cur
+    return True
+
+
+@entry
+def polygon_hits_sphere(
+    wf: Array, p: int, x: float, y: float, z: float, r: float
+) -> tuple[int, float, float, float]:
+    """Test a sphere, fast version: HIT, MISS or BEYOND the plane, and the projected centre.
+
+    retail: CPolygon::polygon_hits_sphere 0x005387C0, PH-1...PH-7
+    """
+    dist = plane_distance(wf, p, x, y, z)
+    rad = r - EPS
+    if rad < abs(dist):
+        return BEYOND, 0.0, 0.0, 0.0
+    rsq = f32(rad * rad - dist * dist)
+    qx, qy, qz = _contact(wf, p, dist, x, y, z)
+    return disc_touches(wf, p, qx, qy, qz, rsq), qx, qy, qz
+
+
+@entry
+def polygon_hits_sphere_slow_but_sure(
+    wf: Array, p: int, x: float, y: float, z: float, r: float
+) -> tuple[int, float, float, float]:
+    """Test a sphere: HIT, MISS or BEYOND the plane, and the projected centre.
+
+    retail: CPolygon::polygon_hits_sphere_slow_but_sure 0x00538A10, SS-1...SS-6
+    """
+    dist = plane_distance(wf, p, x, y, z)
+    rad = r - EPS
+    if rad < abs(dist):
+        return BEYOND, 0.0, 0.0, 0.0
+    qx, qy, qz = _contact(wf, p, dist, x, y, z)
+    if polygon_point_in_polygon(wf, p, qx, qy, qz):
+        return HIT, qx, qy, qz
+    rsq = f32(rad * rad - dist * dist)
+    return any_edge_near(wf, p, qx, qy, qz, rsq), qx, qy, qz
+
+
+@entry
+def polygon_moved_along(wf: Array, p: int, mx: float, my: float, mz: float) -> bool:
+    """Say whether a movement does not go against the normal.
+
+    retail: PS-3
+    """
+    return along_normal(wf, p, mx, my, mz) >= 0.0
+
+
+@entry
+def polygon_walkable_hits_sphere(
+    wf: Array,
+    p: int,
+    x: float,
+    y: float,
+    z: float,
+    r: float,
+    ux: float,
+    uy: float,
+    uz: float,
+    allowance: float,
+) -> bool:
+    """Say whether the polygon is flat enough and touches the sphere.
+
+    retail: CPolygon::walkable_hits_sphere 0x00539560, WH-1, WH-2
+    """
+    if not along_normal(wf, p, ux, uy, uz) > allowance:
+        return False
+    code, _, _, _ = polygon_hits_sphere_slow_but_sure(wf, p, x, y, z, r)
+    return code == HIT

@@ -1,0 +1,98 @@
+"""Does a CPolygon support a sphere above it, and which of its edges is crossed (02, 11-13)."""
+
+from __future__ import annotations
+
+import math
+from typing import TYPE_CHECKING
+
+from engine.constants import EPS
+from engine.kernels.compile import entry, inlined, kernel
+from engine.kernels.polygon import along_normal, plane_distance
+from engine.kernels.polygon_edges import HIT, disc_touches, last_vertex
+from engine.kernels.rounding import f32
+from engine.layout import POLYGON_COUNT, POLYGON_VERTICES
+
+if TYPE_CHECKING:
+    from engine.kernels.types import Array, Vector
+
+
+@inlined
+def _below(t: float, x: float, y: float, z: float, ux: float, uy: float, uz: float) -> Vector:
+    """Move a sphere's centre by -t along up, on to the plane.
+
+    retail: CW-3
+    """
+    ty = f32(t * uy)
+    tz = f32(t * uz)
+    return f32(x - t * ux), f32(y - ty), f32(z - tz)
+
+
+@kernel
+def _check_walkable(
+    wf: Array, p: int, x: float, y: float, z: float, rsq: float, ux: float, uy: float, uz: float
+) -> bool:
+    """Say whether a disc, projected along up, touches the polygon.
+
+    retail: CW-1...CW-3, CW-5...CW-7
+    """
+    v = along_normal(wf, p, ux, uy, uz)
+    if abs(v) < EPS:
+        return False
+    t = plane_distance(wf, p, x, y, z) / v
+    px, py, pz = _below(t, x, y, z, ux, uy, uz)
+    return disc_touches(wf, p, px, py, pz, rsq) == HIT
+
+
+@entry
+def polygon_check_walkable(
+    wf: Array, p: int, x: float, y: float, z: float, r: float, ux: float, uy: float, uz: float
+) -> bool:
+    """Say whether the sphere, projected along up, touches the polygon.
+
+    retail: CPolygon::check_walkable 0x00538E60, CW-1...CW-7
+    """
+    return _check_walkable(wf, p, x, y, z, f32(r * r), ux, uy, uz)
+
+
+@entry
+def polygon_check_small_walkable(
+    wf: Array, p: int, x: float, y: float, z: float, r: float, ux: float, uy: float, uz: float
+) -> bool:
+    """Say whether a sphere of half the radius, projected along up, touches the polygon.
+
+    retail: CPolygon::check_small_walkable 0x005390B0, 02 12
+    """
+    return _check_walkable(wf, p, x, y, z, f32((r * r) * 0.25), ux, uy, uz)
+
+
+@entry
+def polygon_find_crossed_edge(
+    wf: Array, p: int, x: float, y: float, z: float, ux: float, uy: float, uz: float
+) -> tuple[bool, float, float, float]:
+    """Find the first edge that the centre, projected along up, is outside of: its inward normal.
+
+    retail: CPolygon::find_crossed_edge 0x00539300, FE-1...FE-5
+    """
+    nx, ny, nz = wf[p], wf[p + 1], wf[p + 2]
+    v = along_normal(wf, p, ux, uy, uz)
+    if abs(v) < EPS:
+        return False, 0.0, 0.0, 0.0
+    t = plane_distance(wf, p, x, y, z) / v
+    px, py, pz = _below(t, x, y, z, ux, uy, uz)
+    n = int(wf[p + POLYGON_COUNT])
+    prev = last_vertex(p, n)
+    for i in range(n):
+        cur = p + POLYGON_VERTICES + 3 * i
+        ex = f32(wf[cur] - wf[prev])
+        ey = f32(wf[cur + 1] - wf[prev + 1])
+        ez = wf[cur + 2] - wf[prev + 2]
+        ez32 = f32(ez)
+        cz = ey * nx - ex * ny
+        cy = ex * nz - ez32 * nx
+        cx = ez * ny - ey * nz
+        if ((pz - wf[prev + 2]) * cz + (py - wf[prev + 1]) * cy) + (px - wf[prev]) * cx < 0.0:
+            gx, gy, gz = f32(ez32 * ny - ey * nz), f32(cy), f32(cz)
+            inv = 1.0 / math.sqrt((gx * gx + gy * gy) + gz * gz)
+            return True, f32(inv * gx), f32(inv * gy), f32(inv * gz)
+        prev = cur
+    return False, 0.0, 0.0, 0.0

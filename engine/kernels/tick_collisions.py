@@ -1,0 +1,215 @@
+"""CPhysicsObj, the response (06, 7): bounces, stationary ticks, and reports of what was hit."""
+
+from __future__ import annotations
+
+import math
+from typing import TYPE_CHECKING
+
+from engine.body_layout import (
+    B_COLLIDING,
+    B_ELASTICITY,
+    B_HAS_WEENIE,
+    B_PHYSICS_TIME,
+    B_STATE,
+    B_TRACKS_OBJECTS,
+    B_TRANSIENT,
+    B_VELOCITY,
+    BODY_SIZE,
+    RECORD_ETHEREAL,
+    RECORD_SIZE,
+)
+from engine.constants import (
+    COLLIDES_AS_ENVIRONMENT_PS,
+    COLLISION_MEMORY,
+    ETHEREAL,
+    ETHEREAL_MEMORY,
+    FLIGHT_PS,
+    IGNORE_COLLISIONS,
+    INELASTIC_PS,
+    MISSILE,
+    ON_WALKABLE_TS,
+    REPORT_COLLISIONS_PS,
+    SLEDDING_PS,
+    STATIC,
+    STATIONARY_FALL_TS,
+    STATIONARY_STOP_TS,
+    STATIONARY_STUCK_TS,
+    STATIONARY_TS,
+)
+from engine.kernels.compile import entry, inlined, kernel
+from engine.kernels.rounding import f32
+from engine.kernels.tick_velocity import has_bit, set_bit
+from engine.kernels.vector import load, store
+from engine.layout import (
+    COLLIDED_WITH_ENVIRONMENT,
+    COLLISION_NORMAL,
+    COLLISION_NORMAL_VALID,
+    FRAMES_STATIONARY_FALL,
+    NUM_COLLIDE_OBJECT,
+    OBJECT_INTS,
+    OBJECT_STATE,
+    WORLD_CELL_LIST,
+    WORLD_CELLS,
+    WORLD_OBJECT_INTS,
+)
+
+if TYPE_CHECKING:
+    from engine.kernels.types import Array, Ints
+
+
+@kernel
+def track_touched_objects(wi: Ints, s: Array, b: Array) -> bool:
+    """Take notice of what the transition touched; say whether something was reported.
+
+    No object of a world has a weenie.
+
+    retail: CPhysicsObj::handle_all_collisions 0x00514780, HC-2
+    """
+    reported = False
+    if b[B_TRACKS_OBJECTS] != 0.0:
+        first = wi[WORLD_CELL_LIST] + wi[WORLD_CELLS]
+        for i in range(first, first + int(s[NUM_COLLIDE_OBJECT])):
+            thing = int(s[i])
+            state = wi[wi[WORLD_OBJECT_INTS] + OBJECT_INTS * thing + OBJECT_STATE]
+            reported |= track_object_collision(b, thing, state, False)
+    return reported
+
+
+@entry
+def track_object_collision(b: Array, thing: int, state: int, has_weenie: bool) -> bool:
+    """Remember a touched object, and report it unless it is remembered already.
+
+    `thing`: its place in the collision table; `state`: its PhysicsState.
+
+    retail: CPhysicsObj::track_object_collision 0x00513F10, 06 7
+    """
+    if state & STATIC:
+        return _report_environment_collision(b)
+    record = BODY_SIZE + RECORD_SIZE * thing
+    known = not math.isnan(b[record])
+    b[record] = b[B_PHYSICS_TIME]
+    b[record + RECORD_ETHEREAL] = 1.0 if state & ETHEREAL else 0.0
+    return False if known else _report_object_collision(b, state, has_weenie)
+
+
+@kernel
+def _report_environment_collision(b: Array) -> bool:
+    """Hit the environment, once until it is left; say whether the game object is told.
+
+    retail: CPhysicsObj::report_environment_collision 0x00512FC0, 06 7
+    """
+    if b[B_COLLIDING] != 0.0:
+        return False
+    b[B_COLLIDING] = 1.0
+    reported = _reports(b)
+    _end_flight(b)
+    return reported
+
+
+@kernel
+def _report_object_collision(b: Array, state: int, has_weenie: bool) -> bool:
+    """Hit an object; say whether either game object is told.
+
+    retail: CPhysicsObj::report_object_collision 0x00513060, 06 7
+    """
+    if state & COLLIDES_AS_ENVIRONMENT_PS:
+        return _report_environment_collision(b)
+    reported = False
+    if not state & IGNORE_COLLISIONS:
+        reported = _reports(b)
+        _end_flight(b)
+    if has_weenie and state & REPORT_COLLISIONS_PS and not has_bit(b, B_STATE, IGNORE_COLLISIONS):
+        reported = True
+    return reported
+
+
+@inlined
+def _reports(b: Array) -> bool:
+    """Say whether there is a game object that wants to hear of collisions.
+
+    retail: 06 7
+    """
+    return has_bit(b, B_STATE, REPORT_COLLISIONS_PS) and b[B_HAS_WEENIE] != 0.0
+
+
+@inlined
+def _end_flight(b: Array) -> None:
+    """Make a missile that has hit something an ordinary object.
+
+    retail: 06 7
+    """
+    if has_bit(b, B_STATE, MISSILE):
+        set_bit(b, B_STATE, FLIGHT_PS, False)
+
+
+@kernel
+def _report_collision_end(b: Array) -> None:
+    """Forget the objects whose last touch is too long ago.
+
+    retail: HC-3
+    """
+    for record in range(BODY_SIZE, len(b), RECORD_SIZE):
+        memory = ETHEREAL_MEMORY if b[record + RECORD_ETHEREAL] != 0.0 else COLLISION_MEMORY
+        if b[B_PHYSICS_TIME] - b[record] > memory:
+            b[record] = math.nan
+
+
+@entry
+def respond(s: Array, b: Array, prev_on_walkable: bool) -> bool:
+    """Let state and velocity respond to a transition; say whether its hit was reported.
+
+    `prev_on_walkable`: whether the body stood on a walkable before the transition.
+
+    retail: CPhysicsObj::handle_all_collisions 0x00514780, HC-1, HC-3...HC-6
+    """
+    on_walkable = has_bit(b, B_TRANSIENT, ON_WALKABLE_TS)
+    bounce = not (prev_on_walkable and on_walkable and not has_bit(b, B_STATE, SLEDDING_PS))
+    reported = False
+    _report_collision_end(b)
+    hit = s[COLLIDED_WITH_ENVIRONMENT] != 0.0
+    if b[B_COLLIDING] != 0.0:
+        b[B_COLLIDING] = 1.0 if hit else 0.0
+    elif hit or (not prev_on_walkable and on_walkable):
+        reported = _report_environment_collision(b)
+    frames = int(s[FRAMES_STATIONARY_FALL])
+    if frames > 1:
+        store(b, B_VELOCITY, 0.0, 0.0, 0.0)
+    elif bounce and s[COLLISION_NORMAL_VALID] != 0.0:
+        _bounce(s, b)
+    _count_stationary_ticks(b, frames)
+    return reported
+
+
+@inlined
+def _count_stationary_ticks(b: Array, frames: int) -> None:
+    """Write the counter's bits; the lower ones stay when it rises.
+
+    retail: HC-5, HC-6
+    """
+    if frames in (0, 3):
+        set_bit(b, B_TRANSIENT, STATIONARY_TS, False)
+    elif frames == 1:
+        set_bit(b, B_TRANSIENT, STATIONARY_FALL_TS, True)
+    elif frames == 2:
+        set_bit(b, B_TRANSIENT, STATIONARY_STOP_TS, True)
+    else:
+        set_bit(b, B_TRANSIENT, STATIONARY_STUCK_TS, True)
+
+
+@inlined
+def _bounce(s: Array, b: Array) -> None:
+    """Turn the velocity away from what was hit, or stop.
+
+    retail: HC-5
+    """
+    if has_bit(b, B_STATE, INELASTIC_PS):
+        store(b, B_VELOCITY, 0.0, 0.0, 0.0)
+        return
+    x, y, z = load(b, B_VELOCITY)
+    nx, ny, nz = load(s, COLLISION_NORMAL)
+    d = (z * nz + y * ny) + nx * x
+    if d < 0.0:
+        e = -(d * (b[B_ELASTICITY] + 1.0))
+        ey = f32(e * ny)
+        ez = f32(e * nz)
+        store(b, B_VELOCITY, f32(e * nx + x), f32(ey + y), f32(ez + z))

@@ -1,0 +1,177 @@
+"""CPhysicsObj, the seed (06, 6): what a tick tells its transition."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from engine.body_layout import (
+    B_CELL,
+    B_CONTACT_CELL_ID,
+    B_CONTACT_PLANE,
+    B_FREE_HEADING,
+    B_NUM_SPHERE,
+    B_POSITION,
+    B_SCALE,
+    B_SLIDING_NORMAL,
+    B_SPHERES,
+    B_STATE,
+    B_STEP_DOWN_HEIGHT,
+    B_STEP_UP_HEIGHT,
+    B_TRANSIENT,
+    B_WANTED,
+    B_WEENIE_BITS,
+)
+from engine.constants import (
+    CONTACT,
+    CONTACT_TS,
+    DUMMY_RADIUS,
+    EDGE_SLIDE,
+    EDGE_SLIDE_PS,
+    ETHEREAL,
+    FREE_ROTATE,
+    GRAVITY_PS,
+    MISSILE,
+    ON_WALKABLE,
+    ON_WALKABLE_TS,
+    PATH_CLIPPED,
+    SLIDING_TS,
+    STATIONARY_FALL_TS,
+    STATIONARY_STOP_TS,
+    STATIONARY_STUCK_TS,
+    WATER_CONTACT_TS,
+)
+from engine.kernels.collision_info import set_sliding_normal
+from engine.kernels.compile import entry, inlined, kernel
+from engine.kernels.path import init_path
+from engine.kernels.query import clear, init_spheres
+from engine.kernels.tick_contact import leaves_contact
+from engine.kernels.tick_velocity import has_bit
+from engine.kernels.vector import copy, store
+from engine.layout import (
+    BEGIN_CELL,
+    BEGIN_POS,
+    CONTACT_CELL_ID,
+    CONTACT_IS_WATER,
+    CONTACT_PLANE,
+    CONTACT_VALID,
+    END_POS,
+    FRAMES_STATIONARY_FALL,
+    HAS_BEGIN_POS,
+    LAST_KNOWN_CELL_ID,
+    LAST_KNOWN_IS_WATER,
+    LAST_KNOWN_PLANE,
+    LAST_KNOWN_VALID,
+    LOCAL_LOW_POINT,
+    LOCAL_SPHERE,
+    MOVER_GRAVITY,
+    NUM_SPHERE,
+    OI_ETHEREAL,
+    OI_STATE,
+    OI_STEP_DOWN,
+    PLACEMENT_ALLOWS_SLIDING,
+    PLANE_SIZE,
+    POSITION_SIZE,
+    RADIUS,
+    STEP_DOWN_HEIGHT,
+    STEP_UP_HEIGHT,
+)
+
+if TYPE_CHECKING:
+    from engine.kernels.types import Array
+
+
+@entry
+def seed_transition(s: Array, b: Array, admin_move: bool) -> int:
+    """Prepare a transition from where the body is to where it wants to be; return its own flags.
+
+    retail: CPhysicsObj::transition 0x00512DC0, SEED-1...SEED-6
+    """
+    clear(s)
+    flags = _get_object_info(s, b, admin_move)
+    _init_object(s, b, flags)
+    _give_spheres(s, b)
+    s[PLACEMENT_ALLOWS_SLIDING] = 1.0
+    s[HAS_BEGIN_POS] = 1.0
+    s[BEGIN_CELL] = b[B_CELL]
+    copy(s, BEGIN_POS, b, B_POSITION, POSITION_SIZE)
+    copy(s, END_POS, b, B_WANTED, POSITION_SIZE)
+    init_path(s)
+    if has_bit(b, B_TRANSIENT, STATIONARY_STUCK_TS):
+        s[FRAMES_STATIONARY_FALL] = 3.0
+    elif has_bit(b, B_TRANSIENT, STATIONARY_STOP_TS):
+        s[FRAMES_STATIONARY_FALL] = 2.0
+    elif has_bit(b, B_TRANSIENT, STATIONARY_FALL_TS):
+        s[FRAMES_STATIONARY_FALL] = 1.0
+    return flags
+
+
+@kernel
+def _get_object_info(s: Array, b: Array, admin_move: bool) -> int:
+    """Seed contact plane and sliding normal; return the mover's flags.
+
+    retail: CPhysicsObj::get_object_info 0x00511CC0, GO-1...GO-8
+    """
+    flags = EDGE_SLIDE if has_bit(b, B_STATE, EDGE_SLIDE_PS) else 0
+    if not admin_move:
+        if has_bit(b, B_TRANSIENT, CONTACT_TS):
+            flags |= _seed_contact(s, b)
+        if has_bit(b, B_TRANSIENT, SLIDING_TS):
+            set_sliding_normal(s, b[B_SLIDING_NORMAL], b[B_SLIDING_NORMAL + 1])
+    if b[B_FREE_HEADING] != 0.0:
+        flags |= FREE_ROTATE
+    if has_bit(b, B_STATE, MISSILE):
+        flags |= PATH_CLIPPED
+    return flags
+
+
+@inlined
+def _seed_contact(s: Array, b: Array) -> int:
+    """Seed the contact plane, or, when the body leaves it, only as the last known one.
+
+    In that case the cell id goes to the contact plane's field all the same.
+
+    retail: GO-3...GO-5; CTransition::init_contact_plane 0x0050E850,
+    init_last_known_contact_plane 0x0050E8E0
+    """
+    water = 1.0 if has_bit(b, B_TRANSIENT, WATER_CONTACT_TS) else 0.0
+    s[LAST_KNOWN_VALID] = 1.0
+    copy(s, LAST_KNOWN_PLANE, b, B_CONTACT_PLANE, PLANE_SIZE)
+    s[LAST_KNOWN_IS_WATER] = water
+    s[CONTACT_CELL_ID] = b[B_CONTACT_CELL_ID]
+    if leaves_contact(b):
+        return 0
+    s[LAST_KNOWN_CELL_ID] = b[B_CONTACT_CELL_ID]
+    s[CONTACT_VALID] = 1.0
+    copy(s, CONTACT_PLANE, b, B_CONTACT_PLANE, PLANE_SIZE)
+    s[CONTACT_IS_WATER] = water
+    return CONTACT | ON_WALKABLE if has_bit(b, B_TRANSIENT, ON_WALKABLE_TS) else CONTACT
+
+
+@inlined
+def _init_object(s: Array, b: Array, flags: int) -> None:
+    """Set what the mover is and may do.
+
+    retail: OBJECTINFO::init 0x0050CF30, OI-1...OI-4
+    """
+    s[OI_STATE] = flags | int(b[B_WEENIE_BITS])
+    s[STEP_UP_HEIGHT] = b[B_STEP_UP_HEIGHT]
+    s[STEP_DOWN_HEIGHT] = b[B_STEP_DOWN_HEIGHT]
+    s[OI_ETHEREAL] = int(b[B_STATE]) & ETHEREAL
+    s[OI_STEP_DOWN] = 0.0 if has_bit(b, B_STATE, MISSILE) else 1.0
+    s[MOVER_GRAVITY] = 1.0 if has_bit(b, B_STATE, GRAVITY_PS) else 0.0
+
+
+@inlined
+def _give_spheres(s: Array, b: Array) -> None:
+    """Give the transition the body's spheres, or a small one if it has none.
+
+    retail: SEED-4
+    """
+    count = int(b[B_NUM_SPHERE])
+    if count > 0:
+        init_spheres(s, count, b, B_SPHERES, b[B_SCALE])
+        return
+    s[NUM_SPHERE] = 1.0
+    store(s, LOCAL_SPHERE, 0.0, 0.0, DUMMY_RADIUS)
+    s[LOCAL_SPHERE + RADIUS] = DUMMY_RADIUS
+    store(s, LOCAL_LOW_POINT, 0.0, 0.0, 0.0)

@@ -1,0 +1,15 @@
+"""Names of the types that kernels are annotated with; Numba infers the real ones."""
+
+from __future__ import annotations
+
+from typing import TypeAlias
+
+import numpy as np
+import numpy.typing as npt
+
+Array: TypeAlias = npt.NDArray[np.float64]
+"""Float64 numbers: a world's floats or a query's row."""
+Ints: TypeAlias = npt.NDArray[np.int64]
+"""A world's integers."""
+Vector: TypeAlias = tuple[float, float, float]
+"""x, y, z."""

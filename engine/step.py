@@ -1,0 +1,156 @@
+"""Ticks: letting time pass for one body, or for many."""
+
+from __future__ import annotations
+
+import math
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from engine.batch import check_status
+from engine.body import Body, body_rows, rows_as_numbers
+from engine.body_layout import BODY_DTYPE, body_dtype
+from engine.constants import CHECK_ETHEREAL_TS
+from engine.errors import QueryError
+from engine.float32 import float32_array
+from engine.kernels import tick, tick_gates, tick_velocity
+from engine.layout import VECTOR_SIZE
+
+if TYPE_CHECKING:
+    from collections.abc import Callable
+
+    import numpy.typing as npt
+
+    from engine.kernels.types import Array
+    from engine.query import Rows
+    from engine.world import World
+
+
+def step(world: World, body: Any, dt: float) -> Any:
+    """Let one tick pass for one body.
+
+    Parameters
+    ----------
+    world : World
+    body : Body or record
+        A body as it is before its first tick, or what an earlier tick returned; it is not changed.
+    dt : float
+        Length of the tick in seconds, rounded to float32; retail's are from 1/30 to 0.2.
+
+    Returns
+    -------
+    numpy record of `engine.body_layout.body_dtype`
+        The body after the tick: where it is (``origin``, ``rotation``, ``cell_id``), how it moves
+        (``velocity``, ``transient_state``, ``contact_plane``), and what the tick did (``outcome``, an
+        index in `engine.body_layout.OUTCOMES`).
+
+    Raises
+    ------
+    QueryError, PoseError
+        If the body or the time cannot be simulated.
+    OutdoorsError
+        If the body leaves for the landscape.
+
+    Notes
+    -----
+    retail: CPhysicsObj::UpdateObjectInternal 0x005156B0, UO-1...UO-11
+    """
+    if isinstance(body, Body):
+        rows = body_rows(world, [body])
+    else:
+        rows = np.empty(1, dtype=body_dtype(world.num_objects))
+        _check_type(world, body.dtype)
+        rows[0] = body
+    return step_many(world, rows, dt, 1)[0]
+
+
+def step_many(world: World, rows: Rows, dt: float, ticks: int) -> Rows:
+    """Let ticks pass for many bodies, each as if it were alone; the rows are changed, and returned.
+
+    If a body's tick fails, its row is left in the middle of that tick, with the reason in ``status``;
+    the other bodies have done all of their ticks when the error is raised. See `step`.
+    """
+    quantum = float(float32_array([dt], (1,), "dt", QueryError)[0])
+    if not quantum > 0.0:
+        raise QueryError("dt", f"{dt} seconds is not greater than 0")
+    numbers = _ready(world, rows)
+    tick.step_many(world.floats, world.ints, world.new_row(), numbers, quantum, ticks)
+    check_status(rows["status"])
+    return rows
+
+
+def update_many(world: World, rows: Rows, now: float) -> Rows:
+    """Let time pass up to `now` for many bodies, in ticks as long as retail's; the rows are changed.
+
+    The time since a body's ``update_time`` is divided into ticks of 0.2 seconds and a remainder, which
+    waits if it is not longer than 1/30; more than 2 seconds are dropped. See `step_many`.
+
+    Parameters
+    ----------
+    world : World
+    rows : records of `engine.body_layout.body_dtype`
+    now : float
+        Seconds, on the clock of ``update_time``; not rounded to float32.
+
+    Notes
+    -----
+    retail: CPhysicsObj::update_object 0x00515D10, QT-1, QT-3...QT-9
+    """
+    if not math.isfinite(now):
+        raise QueryError("now", f"{now} is not a time")
+    numbers = _ready(world, rows)
+    quanta, times = np.zeros((2, int(tick_gates.MAX_TICKS)), dtype=np.float64)
+    tick_gates.update_many(world.floats, world.ints, world.new_row(), numbers, float(now), quanta, times)
+    check_status(rows["status"])
+    return rows
+
+
+def _ready(world: World, rows: Rows) -> Array:
+    """Return rows as kernels see them, if they can tick in this world."""
+    _check_type(world, rows.dtype)
+    if not rows.flags.c_contiguous:
+        raise QueryError("rows", "not contiguous")
+    ethereal = rows["transient_state"].astype(np.int64) & CHECK_ETHEREAL_TS
+    for index in np.flatnonzero((ethereal != 0) & (rows["has_parent"] == 0)):
+        raise QueryError(f"body {index}", "becoming solid again needs registration in cells (UO-2)")
+    return rows_as_numbers(rows)
+
+
+def set_velocity(rows: Rows, velocities: npt.ArrayLike) -> None:
+    """Give each body a velocity in metres per second, global axes, and wake it up.
+
+    The speed is limited to 50; a velocity that is the present one within EPS changes nothing.
+
+    Parameters
+    ----------
+    rows : records of `engine.body_layout.body_dtype`
+        They are changed.
+    velocities : array_like, shape (len(rows), 3)
+
+    Notes
+    -----
+    retail: CPhysicsObj::set_velocity 0x005113F0, SV-1, SV-2
+    """
+    _give(tick_velocity.set_velocity, rows, velocities)
+
+
+def set_local_velocity(rows: Rows, velocities: npt.ArrayLike) -> None:
+    """Give each body a velocity in metres per second along its own axes. See `set_velocity`.
+
+    Notes
+    -----
+    retail: CPhysicsObj::set_local_velocity 0x005114D0, 06 5
+    """
+    _give(tick_velocity.set_local_velocity, rows, velocities)
+
+
+def _give(kernel: Callable[..., None], rows: Rows, velocities: npt.ArrayLike) -> None:
+    values = float32_array(velocities, (len(rows), int(VECTOR_SIZE)), "velocities", QueryError)
+    for numbers, (x, y, z) in zip(rows_as_numbers(rows), values, strict=True):
+        kernel(numbers, float(x), float(y), float(z))
+
+
+def _check_type(world: World, dtype: np.dtype[Any]) -> None:
+    if dtype != body_dtype(world.num_objects):
+        known = set(BODY_DTYPE.names or ()) <= set(dtype.names or ())
+        raise QueryError("rows", "bodies of another world" if known else "not of engine.body_layout")

@@ -1,0 +1,64 @@
+"""The code that LLVM made of the kernels: no fused multiply-add, every store there, no reference counts."""
+
+from __future__ import annotations
+
+import re
+from typing import Any
+
+import pytest
+from numba import njit, types
+
+from engine.kernels.collisions import collide_many
+from engine.kernels.compile import OPTIONS
+from engine.kernels.frame import frame_cache, frame_globaltolocal
+from engine.kernels.polygon import polygon_make_plane
+from engine.kernels.position import position_localtoglobalvec
+from engine.kernels.resolving import resolve_many
+from engine.kernels.tick import step_many
+from engine.kernels.vector import normalize_check_small
+
+FLOATS = types.Array(types.float64, 1, "C")
+INTS = types.Array(types.int64, 1, "C")
+ROWS = types.Array(types.float64, 2, "C")
+F = types.float64
+N = types.int64
+
+STORES = [
+    (frame_cache, (FLOATS, N), 9),
+    (frame_globaltolocal, (FLOATS, N, F, F, F), 6),
+    (position_localtoglobalvec, (FLOATS, N, F, F, F), 3),
+    (normalize_check_small, (F, F, F), 3),
+    (polygon_make_plane, (FLOATS, N), 10),
+]
+"""Kernel, types of its arguments, and how many of its values the specification stores as float32."""
+
+
+def compiled(kernel: Any, signature: tuple[Any, ...]) -> Any:
+    """Compile a kernel anew, past the cache, which keeps no intermediate code."""
+    fresh = njit(**OPTIONS, no_cpython_wrapper=True)(kernel.py_func)
+    fresh.compile(signature)
+    return fresh
+
+
+@pytest.mark.parametrize(("kernel", "signature", "stores"), STORES)
+def test_one_rounding_for_each_store(kernel: Any, signature: tuple[Any, ...], stores: int) -> None:
+    """Each store of the specification is one conversion to float32; none is merged away or doubled."""
+    (code,) = compiled(kernel, signature).inspect_llvm().values()
+    assert len(re.findall(r"= fptrunc double", code)) == stores
+    assert not re.search(r"\bfast\b|\bcontract\b|\breassoc\b", code)
+
+
+@pytest.mark.parametrize(
+    ("kernel", "arguments"),
+    [(collide_many, (ROWS, ROWS)), (resolve_many, (ROWS, ROWS)), (step_many, (ROWS, F, N))],
+)
+def test_no_fused_multiply_add_and_no_reference_counts(kernel: Any, arguments: tuple[Any, ...]) -> None:
+    """Whole queries and ticks, with all that they call, neither fuse operations nor count references."""
+    fresh = compiled(kernel, (FLOATS, INTS, FLOATS, *arguments))
+    (code,) = fresh.inspect_llvm().values()
+    (assembly,) = fresh.inspect_asm().values()
+    assert "NRT_incref" not in code
+    assert "llvm.fma" not in code
+    assert "llvm.fmuladd" not in code
+    assert not re.search(r"\bv?fn?m(add|sub)\d*[sp]?[sd]?\b", assembly)
+    assert assembly.count("\n") > 10_000
