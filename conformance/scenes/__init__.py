@@ -1,0 +1,1 @@
+"""Scenes: the neutral model, primitives to write it with, the BSP builder and importers."""

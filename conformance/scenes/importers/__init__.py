@@ -1,0 +1,1 @@
+"""Importers: scenes from files of other projects."""
