@@ -1,0 +1,1 @@
+"""The operations of ``vectors/FORMAT.md``, performed by the engine; one module per family."""

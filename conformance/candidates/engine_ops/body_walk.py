@@ -1,0 +1,128 @@
+"""Bodies that move by themselves, tick after tick (``body_walk`` of ``tick.jsonl``), by the engine."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any, Final
+
+from conformance.candidates.engine_ops.bodies import LiveBody
+from conformance.candidates.engine_ops.running import TRACE_CAPACITY
+from conformance.candidates.engine_ops.state_block import trace_text
+from conformance.candidates.engine_ops.values import floats, vector
+from conformance.candidates.engine_ops.world_cache import world_of
+from engine import layout as at
+from engine.batch import check_status
+from engine.body_layout import OUTCOMES
+from engine.constants import CONTACT_TS, SLIDING_TS
+from engine.errors import OutdoorsError
+from engine.kernels import tick, tick_velocity
+
+if TYPE_CHECKING:
+    from collections.abc import Callable, Mapping
+
+    from conformance.query import Fields, Query
+    from engine.world import World
+
+IDENTITY: Final = [1.0, 0.0, 0.0, 0.0]
+"""The rotation that a tick leaves out."""
+TRANSITION_OUTCOMES: Final = ("failed", "moved", "lost")
+"""Outcomes of ticks that have run a transition."""
+
+
+def _body_walk(query: Query) -> Fields:
+    inputs = query.inputs
+    if "world" in inputs:
+        raise OutdoorsError("a world has landblocks, which the engine does not hold")
+    recorder = Recorder(world_of(inputs["cells"], query.geometries), inputs["body"])
+    ticks: list[Fields] = []
+    for given in inputs["ticks"]:
+        ticks.append(recorder.tick(given))
+        if ticks[-1]["r"] == "lost":
+            break
+    return {"ticks": ticks}
+
+
+class Recorder:
+    """Moves a body and writes what each tick did; some fields only when they have changed."""
+
+    def __init__(self, world: World, block: Mapping[str, Any]) -> None:
+        self.world: Final = world
+        self.body: Final = LiveBody(block, world.cell_index(block["position"]["cell"]), world.num_objects)
+        self.cell = int(self.body.record["cell_id"])
+        self.state = int(self.body.record["state"])
+
+    def tick(self, given: Mapping[str, Any]) -> Fields:
+        """Perform one tick."""
+        body, record = self.body, self.body.record
+        if "omega" in given:
+            record["omega"] = given["omega"]
+        if "set_velocity" in given:
+            tick_velocity.set_velocity(body.row, *vector(given["set_velocity"]))
+        if "set_local_velocity" in given:
+            tick_velocity.set_local_velocity(body.row, *vector(given["set_local_velocity"]))
+        trace = self._step(float(given["q"]))
+        outcome = OUTCOMES[int(record["outcome"])]
+        fields = {"r": outcome, **self._always()}
+        if outcome in TRANSITION_OUTCOMES:
+            fields["t"] = trace
+        if outcome == "moved":
+            fields |= _touched(body)
+        kills = int(record["kill_velocity"])
+        return fields | ({"kill": kills} if kills else {})
+
+    def _step(self, quantum: float) -> str:
+        """Run a tick and return its trace; with too little room for it, the tick is run again."""
+        row, capacity = self.body.row, TRACE_CAPACITY
+        before = row.copy()
+        while True:
+            state = self.world.new_row(trace_capacity=capacity)
+            tick.step_many(self.world.floats, self.world.ints, state, row.reshape(1, -1), quantum, 1)
+            check_status(self.body.record["status"].reshape(1))
+            trace = trace_text(state, self.world.ints)
+            if trace is not None:
+                return trace
+            row[:] = before
+            capacity = int(state[at.TRACE_LENGTH])
+
+    def _always(self) -> Fields:
+        """Write position and velocity, and what has changed since the last tick."""
+        record = self.body.record
+        rotation, cell = floats(record["rotation"]), int(record["cell_id"])
+        fields: Fields = {
+            "pos": floats(record["origin"]),
+            "v": floats(record["velocity"]),
+            "ts": int(record["transient_state"]),
+        }
+        if rotation != IDENTITY:
+            fields["rot"] = rotation
+        if cell != self.cell:
+            self.cell = fields["cell"] = cell
+        if int(record["state"]) != self.state:
+            self.state = fields["state"] = int(record["state"])
+        if record["cell"] != at.NO_CELL and self.world.cell_ids[int(record["cell"])] != cell:
+            fields["cell_object"] = self.world.cell_ids[int(record["cell"])]
+        if record["omega"].any():
+            fields["om"] = floats(record["omega"])
+        return fields
+
+
+def _touched(body: LiveBody) -> Fields:
+    """Write contact and collisions after a write-back."""
+    record = body.record
+    bits = int(record["transient_state"])
+    fields: Fields = {"cv": floats(record["cached_velocity"])}
+    if bits & CONTACT_TS:
+        fields["cp"] = floats(record["contact_plane"])
+        fields["cp_cell"] = int(record["contact_plane_cell_id"])
+    if bits & SLIDING_TS:
+        fields["sn"] = floats(record["sliding_normal"])
+    if record["collision_normal_valid"]:
+        fields["cn"] = floats(record["collision_normal"])
+    if record["frames_stationary_fall"]:
+        fields["fsf"] = int(record["frames_stationary_fall"])
+    if record["collided_with_environment"]:
+        fields["env"] = 1
+    return fields
+
+
+OPS: Final[dict[str, Callable[[Query], Fields]]] = {"body_walk": _body_walk}
+"""Operation name to function."""

@@ -1,0 +1,34 @@
+"""Running one query in a world, with its trace."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any, Final
+
+import numpy as np
+
+from conformance.candidates.engine_ops.rows import numbers_of
+from conformance.candidates.engine_ops.state_block import trace_text
+from engine import layout as at
+from engine.batch import check_status
+
+if TYPE_CHECKING:
+    from collections.abc import Callable
+
+    from engine.world import World
+
+TRACE_CAPACITY: Final = 1024
+"""Room for a trace at first; it grows when a trace turns out to be longer."""
+
+
+def run(kernel: Callable[..., None], world: World, row: Any) -> tuple[Any, str]:
+    """Run a query and return its result record and its trace."""
+    capacity = TRACE_CAPACITY
+    while True:
+        state = world.new_row(trace_capacity=capacity)
+        result = np.zeros(1, dtype=at.RESULT_DTYPE)
+        kernel(world.floats, world.ints, state, numbers_of(row), result.view(np.float64))
+        check_status(result["status"])
+        trace = trace_text(state, world.ints)
+        if trace is not None:
+            return result[0], trace
+        capacity = int(state[at.TRACE_LENGTH])

@@ -1,0 +1,1 @@
+"""The operations of ``vectors/FORMAT.md``, performed by the oracle; one module per family."""

@@ -1,0 +1,210 @@
+"""Operations on the state of a transition: from one slide to a whole `find_valid_position`."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any, Final
+
+from conformance.candidates.oracle_ops.blocks import take_mover, take_seed
+from conformance.candidates.oracle_ops.geometry import oracle_geometry
+from conformance.candidates.oracle_ops.scene import build_world
+from conformance.candidates.oracle_ops.state_block import (
+    centers,
+    geometry_of,
+    state_block,
+    valid_normal,
+)
+from conformance.candidates.oracle_ops.values import plane, position, vector, xyz
+from oracle import trace
+from oracle.arithmetic import f32
+from oracle.enums import InsertType
+from oracle.transition import Transition
+from oracle.world import World
+
+if TYPE_CHECKING:
+    from collections.abc import Callable, Mapping
+
+    from conformance.query import Fields, Query
+    from oracle.physics_object import PhysicsObj
+    from oracle.physics_part import PhysicsPart
+
+STATIC_WITH_BSP: Final = 0x10001
+"""PhysicsState of the static that a ``find_collisions`` query puts its geometry into."""
+
+PATH_FLAGS: Final = (
+    "step_down",
+    "check_walkable",
+    "collide",
+    "obstruction_ethereal",
+    "bldg_check",
+    "hits_interior_cell",
+)
+"""Integer fields of the path block, 0 if absent."""
+PATH_NUMBERS: Final = ("step_down_amt", "walk_interp", "walkable_allowance")
+"""Float fields of the path block, 0 if absent."""
+
+DISPATCH_NAMES: Final = {
+    trace.INITIAL_PLACEMENT: "initial_placement",
+    trace.PLACEMENT: "placement",
+    trace.CHECK_WALKABLE: "check_walkable",
+    trace.STEP_DOWN: "step_down",
+    trace.LANDING: "collide",
+    trace.CONTACT: "contact",
+    trace.PATH_CLIPPED: "path_clipped",
+    trace.AIRBORNE: "airborne",
+}
+
+
+def find_collisions(query: Query) -> Fields:
+    """One call of a BSP tree, as a cell's or a static's, with the path state given."""
+    inputs = query.inputs
+    as_static = inputs["as"] == "static"
+    world = build_world([_only_cell(inputs, as_static=as_static)], query.geometries)
+    cell = world.cells[inputs["pose"]["cell"]]
+    transition = _at_check_pos(inputs, world, trace_to=[])
+    path = transition.sphere_path
+    path.begin_cell = path.curr_cell = path.check_cell = cell
+    take_seed(transition, inputs["seed"])
+    _take_path(transition, inputs["path"])
+    tree = oracle_geometry(query.geometries[inputs["geometry"]]).tree
+    if as_static:
+        _static_part(cell.shadow_object_list[0]).cache_local_space(path)
+    else:
+        cell.cache_local_space(path)
+    if path.insert_type == InsertType.INITIAL_PLACEMENT:
+        letter = trace.initial_placement(transition)
+        result = tree.placement_insert(transition)
+    else:
+        letter = trace.dispatch(transition)
+        result = tree.find_collisions(transition, f32(inputs["scale"]))
+    outcome: Fields = {"dispatch": DISPATCH_NAMES[letter], "result": result.name}
+    return outcome | _traced_state(transition)
+
+
+def transition(query: Query) -> Fields:
+    """One `find_valid_position` call."""
+    inputs = query.inputs
+    world = build_world(inputs["cells"], query.geometries)
+    end = position(inputs["to"])
+    begin = None if inputs["from"] is None else position(inputs["from"])
+    made = Transition(world, trace=[])
+    take_seed(made, inputs["seed"])
+    take_mover(made, inputs["mover"], end if begin is None else begin)
+    made.sphere_path.placement_allows_sliding = inputs.get("placement_allows_sliding", 1)
+    made.init_path(world.cells[inputs["begin_cell"]], begin, end)
+    outcome: Fields = {"result": made.find_valid_position()}
+    outcome |= _traced_state(made)
+    walkable = made.sphere_path.walkable
+    if walkable is not None:
+        outcome["walkable_geometry"] = geometry_of(walkable, query.geometries.values())
+    return outcome
+
+
+def slide_sphere(query: Query) -> Fields:
+    """`CSphere::slide_sphere` of sphere 0 with a given normal."""
+    made = _seeded(query.inputs)
+    sp = made.sphere_path
+    normal = vector(query.inputs["normal"])
+    result = sp.global_sphere[0].slide_sphere(sp, made.collision_info, normal, sp.global_curr_center[0])
+    outcome: Fields = {"result": result.name, "normal": xyz(normal)}
+    return outcome | _moved(made)
+
+
+def adjust_offset(query: Query) -> Fields:
+    """`CTransition::adjust_offset` of a given offset."""
+    made = _seeded(query.inputs)
+    offset = made.adjust_offset(vector(query.inputs["offset"]))
+    outcome: Fields = {"offset": xyz(offset)}
+    return outcome | _moved(made)
+
+
+def cliff_slide(query: Query) -> Fields:
+    """`CTransition::cliff_slide` with a given new contact plane."""
+    made = _seeded(query.inputs)
+    outcome: Fields = {"result": made.cliff_slide(plane(query.inputs["plane"])).name}
+    return outcome | _moved(made)
+
+
+def cache_localspace_sphere(query: Query) -> Fields:
+    """`SPHEREPATH::cache_localspace_sphere` for a given pose and scale."""
+    made = _at_check_pos(query.inputs, World(), trace_to=None)
+    sp = made.sphere_path
+    sp.cache_localspace_sphere(position(query.inputs["pose"]), f32(query.inputs["scale"]))
+    count = sp.num_sphere
+    return {
+        "spheres": [[*xyz(s.center), s.radius] for s in sp.localspace_sphere[:count]],
+        "curr": [xyz(c) for c in sp.localspace_curr_center[:count]],
+        "z": xyz(sp.localspace_z),
+        "low_point": xyz(sp.localspace_low_point),
+        "global_spheres": centers(made),
+        "global_curr": [xyz(c) for c in sp.global_curr_center[:count]],
+    }
+
+
+OPS: Final[dict[str, Callable[[Query], Fields]]] = {
+    "find_collisions": find_collisions,
+    "transition": transition,
+    "slide_sphere": slide_sphere,
+    "adjust_offset": adjust_offset,
+    "cliff_slide": cliff_slide,
+    "cache_localspace_sphere": cache_localspace_sphere,
+}
+
+
+def _only_cell(inputs: Mapping[str, Any], *, as_static: bool) -> dict[str, Any]:
+    """Write the CELLS entry of the one cell of a ``find_collisions`` query."""
+    pose = inputs["pose"]
+    cell = {"id": pose["cell"], "pose": pose, "geometry": None if as_static else inputs["geometry"]}
+    if as_static:
+        static = {"geometry": inputs["geometry"], "pose": pose, "scale": inputs["scale"]}
+        cell["statics"] = [static | {"state": STATIC_WITH_BSP}]
+    return cell
+
+
+def _at_check_pos(inputs: Mapping[str, Any], world: World, *, trace_to: list[str] | None) -> Transition:
+    """Make a transition at current position `from` and check position `to`, in no cell."""
+    made = Transition(world, trace_to)
+    begin, end = position(inputs["from"]), position(inputs["to"])
+    take_mover(made, inputs["mover"], begin)
+    made.init_path(None, begin, end)
+    made.sphere_path.set_check_pos(end, None)
+    return made
+
+
+def _seeded(inputs: Mapping[str, Any]) -> Transition:
+    made = _at_check_pos(inputs, World(), trace_to=None)
+    take_seed(made, inputs["seed"])
+    return made
+
+
+def _take_path(made: Transition, path: Mapping[str, Any]) -> None:
+    sp = made.sphere_path
+    sp.insert_type = InsertType(path.get("insert_type", 0))
+    for name in PATH_FLAGS:
+        setattr(sp, name, path.get(name, 0))
+    for name in PATH_NUMBERS:
+        setattr(sp, name, f32(path.get(name, 0)))
+
+
+def _static_part(obstacle: PhysicsObj) -> PhysicsPart:
+    """Return the only part of an object that `static_object` made."""
+    parts = obstacle.part_array.parts if obstacle.part_array is not None else []
+    (part,) = parts
+    if part is None:
+        raise TypeError("a static's part is missing")
+    return part
+
+
+def _traced_state(made: Transition) -> Fields:
+    block: Fields = {"trace": "".join(made.trace or ())}
+    return block | state_block(made)
+
+
+def _moved(made: Transition) -> Fields:
+    """Write what the single-step operations move."""
+    ci = made.collision_info
+    return {
+        "check_origin": xyz(made.sphere_path.check_pos.frame.origin),
+        "global_spheres": centers(made),
+        "collision_normal": valid_normal(ci.collision_normal_valid, ci.collision_normal),
+        "sliding_valid": ci.sliding_normal_valid,
+    }

@@ -1,0 +1,135 @@
+"""`conformance trace`: who writes planes, walkables, sliding normals and state while a case runs."""
+
+from __future__ import annotations
+
+import argparse
+from difflib import get_close_matches
+from pathlib import Path
+from typing import TYPE_CHECKING, Final
+
+from conformance import exit_codes
+from conformance.commands.options import UsageError, add_candidate_option, candidate_from
+
+if TYPE_CHECKING:
+    from collections.abc import Collection
+
+    from conformance.candidates.base import Candidate
+    from conformance.case import Case
+    from conformance.query import Outcome, Query
+
+HELP: Final = "run a case on the oracle and show every write of contact planes, walkables and state"
+EXAMPLES: Final = (
+    "conformance trace origin-step-down-touching",
+    "conformance trace origin-step-down-touching --candidate bug:cell-origin --trace cp-write,bsp",
+    "conformance trace my-cases/ramp.yaml::my-first-ramp --pose 3",
+)
+_SEPARATOR: Final = "::"
+
+
+def configure(parser: argparse.ArgumentParser) -> None:
+    """Add the command's arguments."""
+    parser.add_argument("case", metavar="CASE-ID|FILE::ID", help="a built-in case, or a case of a file")
+    parser.add_argument(
+        "--trace",
+        metavar="TOPICS",
+        help="comma-separated: cp-write, lkp-write, walkable, sliding, state, bsp (default: all)",
+    )
+    parser.add_argument(
+        "--pose",
+        type=_pose,
+        default=0,
+        metavar="N",
+        help="the case in its Nth random pose (default: 0, as written)",
+    )
+    parser.add_argument(
+        "--foot", action="store_true", help="end each line with the mover's lowest point: foot=(x,y,z)"
+    )
+    add_candidate_option(parser, default="oracle")
+
+
+def run(args: argparse.Namespace) -> int:
+    """Print the writes and their summary, and return the exit code: 1 if the case fails to run."""
+    from conformance.console import make_console
+    from conformance.report.traces import summary_lines, trace_lines
+    from oracle.write_trace import recording
+
+    topics = _topics(args.trace)
+    candidate = _traceable(args)
+    query = _query(_find_case(args.case), args.pose)
+    with recording(None, topics) as trace:
+        outcome = candidate.answer(query)
+    console = make_console()
+    console.print(f"{query.label} ({query.op}, {candidate.name})")
+    for line in (*trace_lines(trace, with_foot=args.foot), "summary:", *summary_lines(trace)):
+        console.print(line)
+    text, code = _ending(outcome)
+    console.print(text)
+    return code
+
+
+def _pose(text: str) -> int:
+    number = int(text)
+    if number < 0:
+        raise argparse.ArgumentTypeError(f"{number} is not the number of a pose")
+    return number
+
+
+def _topics(text: str | None) -> tuple[str, ...]:
+    from oracle.writes import TOPICS
+
+    if text is None:
+        return TOPICS
+    topics = tuple(topic.strip() for topic in text.split(","))
+    for topic in topics:
+        if topic not in TOPICS:
+            raise UsageError(f"unknown topic {topic!r}.{_hint(topic, TOPICS)} There are: {', '.join(TOPICS)}")
+    return topics
+
+
+def _traceable(args: argparse.Namespace) -> Candidate:
+    from conformance.candidates.bug_candidate import BugCandidate
+    from conformance.candidates.oracle_candidate import OracleCandidate
+
+    candidate = candidate_from(args)
+    if not isinstance(candidate, OracleCandidate | BugCandidate):
+        raise UsageError(f"{candidate.name} cannot be traced; the oracle and the known bugs (bug:NAME) can")
+    return candidate
+
+
+def _find_case(text: str) -> Case:
+    from conformance.loader import NoCasesError, load_paths
+
+    file, _, case_id = text.rpartition(_SEPARATOR)
+    try:
+        loaded = load_paths([Path(file)] if file else ())
+    except (NoCasesError, OSError) as error:
+        raise UsageError(str(error)) from error
+    cases = {case.id: case for case in loaded.cases}
+    if case_id not in cases:
+        wrong = f" {len(loaded.problems)} mistakes keep cases from loading, see `conformance lint`."
+        lint = wrong if loaded.problems else ""
+        where = f"in {file}" if file else "among the built-in cases"
+        raise UsageError(f"no case {case_id!r} {where}.{_hint(case_id, cases)}{lint}")
+    return cases[case_id]
+
+
+def _query(case: Case, pose: int) -> Query:
+    if pose >= len(case.queries):
+        raise UsageError(f"{case.id} has {len(case.queries) - 1} random poses, there is no pose {pose}")
+    return case.queries[pose]
+
+
+def _hint(name: str, known: Collection[str]) -> str:
+    nearest = get_close_matches(name, list(known), n=1)
+    return f" Did you mean {nearest[0]!r}?" if nearest else ""
+
+
+def _ending(outcome: Outcome) -> tuple[str, int]:
+    from conformance.query import Errored, Skipped
+
+    if isinstance(outcome, Errored):
+        return f"failed: {outcome.context}", exit_codes.FAILURES
+    if isinstance(outcome, Skipped):
+        return f"skipped: {outcome.reason}", exit_codes.NOTHING_RAN
+    result = outcome.fields.get("result")
+    return "answered" if result is None else f"result: {result}", exit_codes.OK

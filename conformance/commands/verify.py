@@ -1,0 +1,175 @@
+"""`conformance verify`: hold a candidate against vector files."""
+
+from __future__ import annotations
+
+import json
+import sys
+from pathlib import Path
+from typing import TYPE_CHECKING, Any, Final
+
+from conformance import exit_codes
+from conformance.commands.options import UsageError, add_candidate_option, candidate_from
+
+if TYPE_CHECKING:
+    import argparse
+
+    from rich.console import Console
+
+    from conformance.compare import Difference
+    from conformance.verification import Failure, Tally
+
+HELP: Final = "compare a candidate with what retail answered, as recorded in vector files"
+EXAMPLES: Final = (
+    "conformance verify conformance/vectors/bsp.jsonl",
+    "conformance verify conformance/vectors/*.jsonl --candidate engine",
+    "conformance verify conformance/vectors/find_collisions.jsonl --id fc_00000 --candidate bug:cell-origin",
+    "conformance verify vectors.jsonl --json > result.json",
+)
+_SHOWN: Final = 5
+"""Failing records explained by default."""
+
+
+def configure(parser: argparse.ArgumentParser) -> None:
+    """Add the command's arguments."""
+    parser.add_argument(
+        "files", nargs="+", type=Path, metavar="FILE", help="JSON-lines files, or folders of them"
+    )
+    add_candidate_option(parser, default="oracle")
+    parser.add_argument(
+        "--id", action="append", default=[], metavar="ID", help="only this record (repeatable)"
+    )
+    parser.add_argument(
+        "--max-differences",
+        type=int,
+        default=_SHOWN,
+        metavar="N",
+        help="explain the first N failing records of each file (default: %(default)s)",
+    )
+    parser.add_argument("--json", action="store_true", help="print the result as one JSON object")
+
+
+def run(args: argparse.Namespace) -> int:
+    """Verify every file and return the exit code: 1 on any failure, 4 when nothing was compared."""
+    from conformance.console import make_console
+
+    paths = _vector_files(args.files)
+    results, total = _verify(paths, args)
+    if args.json:
+        _print_json(results, total, args.candidate)
+    else:
+        console = make_console()
+        for path, tally in results:
+            _print_file(console, path, tally, args)
+        style = "red" if total.failed else "green" if total.compared else "yellow"
+        console.print(f"total: {total.summary()}", style=style)
+        if not total.compared:
+            console.print("nothing was compared", style="yellow")
+    if total.failed:
+        return exit_codes.FAILURES
+    return exit_codes.OK if total.compared else exit_codes.NOTHING_RAN
+
+
+def _vector_files(given: list[Path]) -> list[Path]:
+    from conformance.vector_library import GEOMETRY_FILES, WORLD_FILE
+
+    shared = {*GEOMETRY_FILES, WORLD_FILE}
+    paths: list[Path] = []
+    for path in given:
+        if path.is_dir():
+            paths += sorted(p for p in path.glob("*.jsonl") if p.name not in shared)
+        elif path.is_file():
+            paths += [path] if path.name not in shared else []
+        else:
+            raise UsageError(f"no such file: {path}")
+    return paths
+
+
+def _verify(paths: list[Path], args: argparse.Namespace) -> tuple[list[tuple[Path, Tally]], Tally]:
+    from conformance.console import Progress
+    from conformance.vector_library import Library
+    from conformance.verification import Failure, Tally, verify_file
+
+    candidate = candidate_from(args)
+    libraries: dict[Path, Library] = {}
+    results: list[tuple[Path, Tally]] = []
+    total = Tally()
+    with Progress() as progress:
+        for path in paths:
+            library = libraries.setdefault(path.parent, Library(path.parent))
+            tally = verify_file(path, candidate, library, only=args.id, progress=progress)
+            results.append((path, tally))
+            total.add(tally)
+    for folder, library in libraries.items():
+        if library.errors:
+            tally = Tally()
+            for error in library.errors:
+                tally.fail(Failure(error.line, None, error=str(error)))
+            results.append((folder, tally))
+            total.add(tally)
+    return results, total
+
+
+def _print_file(console: Console, path: Path, tally: Tally, args: argparse.Namespace) -> None:
+    console.print(f"{path}: {tally.summary()}")
+    shown = tally.failures[: args.max_differences]
+    for failure in shown:
+        console.print(_explain(path, failure, args.candidate), style="red")
+        console.print()
+    if len(tally.failures) > len(shown):
+        console.print(f"  ... and {len(tally.failures) - len(shown)} more failing records")
+
+
+def _explain(path: Path, failure: Failure, candidate: str) -> str:
+    from conformance.report.text import render_failure
+
+    if failure.record is None:
+        return f"  {failure.error}"
+    if failure.error:
+        return f"  {path}:{failure.line} {failure.record.id}: {candidate} failed: {failure.error}"
+    return render_failure(
+        case=f"{path}:{failure.line} {failure.record.id}",
+        title="",
+        differences=failure.differences,
+        candidate=candidate,
+        query=failure.record.query,
+        rerun=f"conformance verify {quoted(path)} --id {failure.record.id} --candidate {candidate}",
+    )
+
+
+def quoted(path: Path) -> str:
+    """Return a path as one argument of a command, in the shells of every platform."""
+    return f'"{path}"'
+
+
+def _print_json(results: list[tuple[Path, Tally]], total: Tally, candidate: str) -> None:
+    files = [
+        {
+            "file": str(path),
+            **tally.counts(),
+            "failures": [_failure_record(failure) for failure in tally.failures],
+        }
+        for path, tally in results
+    ]
+    sys.stdout.write(json.dumps({"candidate": candidate, "total": total.counts(), "files": files}) + "\n")
+
+
+def _failure_record(failure: Failure) -> dict[str, Any]:
+    record: dict[str, Any] = {"line": failure.line}
+    if failure.record is not None:
+        record["id"] = failure.record.id
+    if failure.error:
+        record["error"] = failure.error
+    record["differences"] = [_difference_record(difference) for difference in failure.differences]
+    return record
+
+
+def _difference_record(difference: Difference) -> dict[str, Any]:
+    from conformance.report.values import format_value
+
+    return {
+        "field": difference.path,
+        "name": difference.name,
+        "retail": format_value(difference.kind, difference.retail),
+        "candidate": format_value(difference.kind, difference.candidate),
+        "ulps": difference.ulps,
+    }

@@ -1,0 +1,61 @@
+"""Terminal output: plain text when piped, colour where a terminal wants it (NO_COLOR is respected)."""
+
+from __future__ import annotations
+
+import sys
+import time
+from typing import TYPE_CHECKING, Final, Self
+
+from rich.console import Console
+
+if TYPE_CHECKING:
+    from types import TracebackType
+
+    from rich.status import Status
+
+_SILENT_SECONDS: Final = 2.0
+"""A run shorter than this shows no progress."""
+
+
+def make_console(*, stderr: bool = False) -> Console:
+    """Return a console that prints text as it is: no markup, no wrapping, no guessed colours."""
+    return Console(stderr=stderr, highlight=False, markup=False, emoji=False, soft_wrap=True)
+
+
+class Progress:
+    """A line on the terminal's stderr that says what a long run is doing; nothing anywhere else."""
+
+    def __init__(self, console: Console | None = None) -> None:
+        self._console = console or make_console(stderr=True)
+        self._started = time.monotonic()
+        self._status: Status | None = None
+
+    def __enter__(self) -> Self:
+        return self
+
+    def __exit__(
+        self,
+        kind: type[BaseException] | None,
+        error: BaseException | None,
+        traceback: TracebackType | None,
+    ) -> None:
+        if self._status is not None:
+            self._status.stop()
+
+    def say(self, text: str) -> None:
+        """Show `text` in place of what was shown before, once the run has become long."""
+        if not self._console.is_terminal or time.monotonic() - self._started < _SILENT_SECONDS:
+            return
+        if self._status is None:
+            self._status = self._console.status(text)
+            self._status.start()
+        else:
+            self._status.update(text)
+
+
+def tolerate_unprintable() -> None:
+    """Let characters that the terminal's encoding lacks print as ``?`` instead of ending the run."""
+    for stream in (sys.stdout, sys.stderr):
+        reconfigure = getattr(stream, "reconfigure", None)
+        if reconfigure is not None:
+            reconfigure(errors="replace")

@@ -1,0 +1,227 @@
+"""The pytest plug-in: YAML cases become tests, compared with retail field by field.
+
+It is loaded in every pytest run of an environment that has the package, so it imports little, collects
+only what is meant for it, and adds nothing to a run that has no cases.
+"""
+
+from __future__ import annotations
+
+import os
+from pathlib import Path
+from typing import TYPE_CHECKING, Any, Final
+
+import pytest
+
+from conformance.summary import Counts
+
+if TYPE_CHECKING:
+    from collections.abc import Iterable
+
+    from conformance.candidates.base import Candidate
+
+BUILT_IN_CASES: Final = Path(__file__).parent / "cases"
+CASE_SUFFIXES: Final = (".yaml", ".yml")
+FIXTURES_VARIABLE: Final = "RETAIL_FIXTURES"
+DEFAULT_CANDIDATE: Final = "engine"
+
+_FOLDERS: Final = pytest.StashKey["tuple[Path, ...]"]()
+_EXPECTS_CASES: Final = pytest.StashKey[bool]()
+_COLLECTED: Final = pytest.StashKey[int]()
+_TALLY: Final = pytest.StashKey["Tally"]()
+_WORKER_OUTPUT: Final = "conformance_collected"
+
+
+class Tally:
+    """Adds up what the tests' reports say, those of pytest-xdist workers included."""
+
+    def __init__(self) -> None:
+        self.counts = Counts()
+
+    def pytest_runtest_logreport(self, report: pytest.TestReport) -> None:
+        """Count what a test has compared."""
+        if report.when == "call":
+            self.counts.add(report.user_properties)
+
+
+def pytest_addoption(parser: pytest.Parser) -> None:
+    """Add the options of the suite."""
+    group = parser.getgroup("conformance", "retail conformance")
+    group.addoption(
+        "--candidate",
+        default=DEFAULT_CANDIDATE,
+        metavar="SPEC",
+        help="what is compared with retail: engine, oracle, bug:NAME (default: %(default)s)",
+    )
+    group.addoption(
+        "--cases",
+        action="append",
+        default=[],
+        metavar="DIR",
+        help="run the cases of this folder or file instead of the built-in ones (repeatable)",
+    )
+    group.addoption(
+        "--retail-fixtures",
+        metavar="DIR",
+        help=f"folder of real cells, for the tests that use them (default: ${FIXTURES_VARIABLE})",
+    )
+    group.addoption("--poses", type=int, metavar="N", help="random poses in which to run each scene case")
+    group.addoption("--pose-seed", type=int, metavar="N", help="seed of the random poses")
+
+
+def pytest_configure(config: pytest.Config) -> None:
+    """Decide which folders hold cases, and see that a run of the suite visits them."""
+    config.addinivalue_line("markers", "conformance: a YAML case, compared with retail")
+    given = [_case_path(text) for text in config.getoption("--cases", [])]
+    _check_candidate(config)
+    config.stash[_COLLECTED] = 0
+    config.stash[_TALLY] = Tally()
+    config.pluginmanager.register(config.stash[_TALLY], "conformance-tally")
+    config.stash[_EXPECTS_CASES] = bool(given) or _covers(config, BUILT_IN_CASES)
+    found = _found_cases(config) if config.stash[_EXPECTS_CASES] else []
+    config.stash[_FOLDERS] = tuple(given or [BUILT_IN_CASES])
+    config.args[:] = [
+        *(str(path) for path in found if not _covers(config, path)),
+        *config.args,
+        *(str(path) for path in given if not _covers(config, path)),
+    ]
+
+
+def _case_path(text: str) -> Path:
+    path = Path(text).resolve()
+    if not path.exists():
+        raise pytest.UsageError(f"--cases {text}: there is no such folder or file")
+    if path.is_dir() and not any(_case_files(path)):
+        raise pytest.UsageError(f"--cases {text}: there is no *.yaml file in it")
+    return path
+
+
+def _case_files(folder: Path) -> Iterable[Path]:
+    return (path for path in folder.rglob("*") if path.suffix in CASE_SUFFIXES)
+
+
+def _check_candidate(config: pytest.Config) -> None:
+    """Refuse an unknown candidate at once; the default is loaded only when a test needs it."""
+    spec = config.getoption("--candidate", DEFAULT_CANDIDATE)
+    if spec != DEFAULT_CANDIDATE:
+        from conformance.candidates.registry import UnknownCandidateError, candidate_names
+
+        if spec not in candidate_names():
+            raise pytest.UsageError(f"--candidate: {UnknownCandidateError(spec, candidate_names())}")
+
+
+def _covers(config: pytest.Config, place: Path) -> bool:
+    """Tell whether the run is asked to visit a place: it, or a folder above it, is an argument."""
+    asked = [Path(arg).resolve() for arg in config.args if "::" not in arg]
+    return any(place.resolve().is_relative_to(path) for path in asked)
+
+
+def _found_folder(config: pytest.Config) -> Path:
+    from conformance.found import found_cases_dir
+
+    return found_cases_dir(config.rootpath).resolve()
+
+
+def _found_cases(config: pytest.Config) -> list[Path]:
+    """List the cases that earlier random runs have found, which are replayed first."""
+    folder = _found_folder(config)
+    return sorted(path.resolve() for path in _case_files(folder)) if folder.is_dir() else []
+
+
+def pytest_collect_file(file_path: Path, parent: pytest.Collector) -> pytest.Collector | None:
+    """Collect YAML files, but only those of the case folders."""
+    if file_path.suffix not in CASE_SUFFIXES:
+        return None
+    whole = file_path.resolve()
+    below = any(whole.is_relative_to(folder) for folder in parent.config.stash[_FOLDERS])
+    if not below and not whole.is_relative_to(_found_folder(parent.config)):
+        return None
+    from conformance.items import YamlFile
+
+    return YamlFile.from_parent(parent, path=file_path)
+
+
+@pytest.hookimpl(tryfirst=True)
+def pytest_ignore_collect(collection_path: Path, config: pytest.Config) -> bool | None:
+    """Let a run of the suite enter the folder of found cases, which is hidden."""
+    if collection_path.name.startswith(".") and config.stash[_EXPECTS_CASES]:
+        return False if _found_folder(config).is_relative_to(collection_path.resolve()) else None
+    return None
+
+
+@pytest.hookimpl(tryfirst=True)
+def pytest_collection_modifyitems(config: pytest.Config, items: list[pytest.Item]) -> None:
+    """Count the cases, before anything is deselected, and put the found ones first."""
+    cases = [item for item in items if item.get_closest_marker("conformance")]
+    config.stash[_COLLECTED] = len(cases)
+    if cases:
+        found = _found_folder(config)
+        items.sort(key=lambda item: not item.path.resolve().is_relative_to(found))
+
+
+@pytest.hookimpl(trylast=True)
+def pytest_sessionfinish(session: pytest.Session, exitstatus: int) -> None:
+    """Turn a run of the suite red that has found no case, or that has compared nothing."""
+    config = session.config
+    output: dict[str, Any] | None = getattr(config, "workeroutput", None)
+    if output is not None:
+        output[_WORKER_OUTPUT] = config.stash[_COLLECTED]
+    elif exitstatus == pytest.ExitCode.OK and _complaint(config):
+        session.exitstatus = pytest.ExitCode.NO_TESTS_COLLECTED
+
+
+def _complaint(config: pytest.Config) -> str:
+    """Say why a run of the suite without failures is red all the same, if it is."""
+    if not config.stash[_EXPECTS_CASES] or config.option.collectonly:
+        return ""
+    if not config.stash[_COLLECTED]:
+        return "no case was found"
+    counts = config.stash[_TALLY].counts
+    return "" if counts.queries or counts.random or counts.reasons else "nothing was compared"
+
+
+@pytest.hookimpl(optionalhook=True)
+def pytest_testnodedown(node: Any, error: object) -> None:
+    """Take over the count of a pytest-xdist worker; every worker collects everything."""
+    del error
+    collected = getattr(node, "workeroutput", {}).get(_WORKER_OUTPUT, 0)
+    stash = node.config.stash
+    stash[_COLLECTED] = max(stash[_COLLECTED], collected)
+
+
+def pytest_terminal_summary(terminalreporter: Any, config: pytest.Config) -> None:
+    """Say what was compared, what was skipped, and the first difference of each failed case."""
+    counts = config.stash[_TALLY].counts
+    if counts or config.stash[_EXPECTS_CASES]:
+        terminalreporter.section("conformance")
+        for line in counts.lines(config.getoption("--candidate", DEFAULT_CANDIDATE)):
+            terminalreporter.write_line(line)
+        if complaint := _complaint(config):
+            terminalreporter.write_line(f"conformance: {complaint}", red=True)
+
+
+@pytest.fixture(scope="session")
+def candidate(pytestconfig: pytest.Config) -> Candidate:
+    """Return the candidate that ``--candidate`` names."""
+    from conformance.items import candidate_of
+
+    return candidate_of(pytestconfig, pytestconfig.getoption("--candidate", DEFAULT_CANDIDATE))
+
+
+@pytest.fixture(scope="session")
+def oracle(pytestconfig: pytest.Config) -> Candidate:
+    """Return the candidate that answers for retail."""
+    from conformance.items import candidate_of
+
+    return candidate_of(pytestconfig, "oracle")
+
+
+@pytest.fixture(scope="session")
+def fixtures_dir(pytestconfig: pytest.Config) -> Path:
+    """Return the folder of real cells, or skip what needs it."""
+    text = pytestconfig.getoption("--retail-fixtures", None) or os.environ.get(FIXTURES_VARIABLE)
+    if not text:
+        pytest.skip("skipped: fixtures absent")
+    path = Path(text)
+    if not path.is_dir():
+        raise pytest.UsageError(f"--retail-fixtures {text}: there is no such folder")
+    return path

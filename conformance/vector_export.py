@@ -1,0 +1,141 @@
+"""Writing vector files: queries and their answers, in the format that `vector_io` reads."""
+
+from __future__ import annotations
+
+import hashlib
+import json
+import math
+from typing import TYPE_CHECKING, Any, Final
+
+from conformance.floats import shortest32
+from conformance.inputs import is_float64_input
+from conformance.outputs import OUTPUTS
+from conformance.shapes import Block, Kind, Listing, Nullable, Scalar
+from conformance.vector_library import GEOMETRY_FILES, Library
+
+if TYPE_CHECKING:
+    from collections.abc import Iterable, Mapping
+    from pathlib import Path
+
+    from conformance.query import Fields, Query
+    from conformance.scenes.model import Geometry
+    from conformance.shapes import Shape
+
+_DIGEST_DIGITS: Final = 8
+"""Hexadecimal digits of a geometry's digest in its name: enough for thousands of geometries."""
+_SEPARATORS: Final = (",", ":")
+
+
+def write_vectors(path: Path, records: Iterable[tuple[str, Query, Fields]]) -> int:
+    """Write records and, beside them, the geometry they use.
+
+    Geometry is named by what it holds (its own name and a digest), so that writing the same scene again
+    changes nothing and different scenes never share a name. Geometry that is there already stays.
+
+    Parameters
+    ----------
+    path : Path
+        The file to write; ``geometries.jsonl`` is written or added to in its folder.
+    records : iterable of (str, Query, Fields)
+        Id, query and retail's answer. Operations in a world cannot be written, as they name no geometry.
+
+    Returns
+    -------
+    int
+        How many records were written.
+
+    Raises
+    ------
+    VectorError
+        If the folder already has a geometry file that cannot be read.
+    """
+    geometries: dict[str, dict[str, Any]] = {}
+    lines = [_record(record_id, query, fields, geometries) for record_id, query, fields in records]
+    path.parent.mkdir(parents=True, exist_ok=True)
+    library = Library(path.parent)
+    new = [geometry for name, geometry in geometries.items() if name not in library.geometries]
+    if library.errors:
+        raise library.errors[0]
+    _write_lines(path.parent / GEOMETRY_FILES[0], new, mode="a")
+    _write_lines(path, lines, mode="w")
+    return len(lines)
+
+
+def geometry_record(geometry: Geometry) -> dict[str, Any]:
+    """Write a geometry under its content name: numbers short, the name ending in a digest of the rest."""
+    record = short_geometry(geometry)
+    base = record.pop("name")
+    content = json.dumps(record, separators=_SEPARATORS, sort_keys=True).encode("utf-8")
+    digest = hashlib.sha256(content).hexdigest()[:_DIGEST_DIGITS]
+    name = base if base.endswith(f"-{digest}") else f"{base}-{digest}"
+    return {"name": name, **record}
+
+
+def short_geometry(geometry: Geometry) -> dict[str, Any]:
+    """Write a geometry under its own name, numbers short."""
+    record: dict[str, Any] = short_inputs(geometry.to_record())
+    return record
+
+
+def short_inputs(value: Any, key: str = "") -> Any:
+    """Copy inputs so that each float32 prints as its shortest decimal; NaN and infinity become strings."""
+    if isinstance(value, float):
+        return _printable(value if is_float64_input(key) else shortest32(value))
+    if isinstance(value, dict):
+        return {inner: short_inputs(item, inner) for inner, item in value.items()}
+    if isinstance(value, list | tuple):
+        return [short_inputs(item, key) for item in value]
+    return value
+
+
+def short_fields(op: str, fields: Fields) -> Fields:
+    """Copy an answer so that each number prints as its shortest decimal; float64 fields stay whole."""
+    short: Fields = _short(OUTPUTS[op], fields)
+    return short
+
+
+def _record(
+    record_id: str, query: Query, fields: Fields, geometries: dict[str, dict[str, Any]]
+) -> dict[str, Any]:
+    names = {}
+    for name, geometry in query.geometries.items():
+        written = geometry_record(geometry)
+        names[name] = written["name"]
+        geometries[written["name"]] = written
+    inputs = _renamed(short_inputs(query.inputs), names)
+    return {"id": record_id, "op": query.op, **inputs, "expect": short_fields(query.op, fields)}
+
+
+def _renamed(inputs: Any, names: Mapping[str, str]) -> Any:
+    if isinstance(inputs, dict):
+        return {
+            key: names[value] if key == "geometry" and value is not None else _renamed(value, names)
+            for key, value in inputs.items()
+        }
+    if isinstance(inputs, list):
+        return [_renamed(item, names) for item in inputs]
+    return inputs
+
+
+def _short(shape: Shape, value: Any) -> Any:
+    match shape:
+        case Scalar(Kind.FLOAT64):
+            return _printable(value)
+        case Nullable(inner) if value is not None:
+            return _short(inner, value)
+        case Listing(item):
+            return [_short(item, v) for v in value]
+        case Block(fields):
+            return {key: _short(fields[key], item) for key, item in value.items()}
+        case _:
+            return short_inputs(value)
+
+
+def _printable(value: float) -> float | str:
+    return value if math.isfinite(value) else str(value)
+
+
+def _write_lines(path: Path, records: Iterable[Mapping[str, Any]], *, mode: str) -> None:
+    with path.open(mode, encoding="utf-8", newline="\n") as file:
+        for record in records:
+            file.write(json.dumps(record, separators=_SEPARATORS, ensure_ascii=False) + "\n")

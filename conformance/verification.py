@@ -1,0 +1,151 @@
+"""Verifying a candidate against vector files: asking every record and counting the answers."""
+
+from __future__ import annotations
+
+from collections import Counter
+from dataclasses import dataclass, field
+from typing import TYPE_CHECKING, Any, Final
+
+from conformance.compare import differences
+from conformance.query import Errored, Skipped
+from conformance.vector_errors import VectorError
+from conformance.vector_io import VectorRecord, read_vectors
+
+if TYPE_CHECKING:
+    from collections.abc import Collection
+    from pathlib import Path
+
+    from conformance.candidates.base import Candidate
+    from conformance.compare import Difference
+    from conformance.console import Progress
+    from conformance.vector_library import Library
+
+_PROGRESS_STEP: Final = 64
+"""Records between two updates of the progress line."""
+
+
+@dataclass(frozen=True, slots=True)
+class Failure:
+    """One record that failed: with differences, or with what went wrong instead of an answer."""
+
+    line: int
+    record: VectorRecord | None
+    differences: tuple[Difference, ...] = ()
+    error: str = ""
+
+
+@dataclass(slots=True)
+class Tally:
+    """What came of the records of a file, or of several.
+
+    Attributes
+    ----------
+    passed, failed : int
+        Exact records that agree and that do not; a line that cannot be read has failed.
+    advisory, advisory_agreeing : int
+        Records marked uncertain that were compared, and how many of them agree.
+    skipped : Counter of str
+        Records the candidate does not do, by its reason.
+    failures : list of Failure
+        Every failure, in file order.
+    """
+
+    passed: int = 0
+    failed: int = 0
+    advisory: int = 0
+    advisory_agreeing: int = 0
+    skipped: Counter[str] = field(default_factory=Counter)
+    failures: list[Failure] = field(default_factory=list)
+
+    @property
+    def compared(self) -> int:
+        """How many records were held against an answer, or should have been."""
+        return self.passed + self.failed + self.advisory
+
+    def add(self, other: Tally) -> None:
+        """Count another tally's records too; its failures stay there."""
+        self.passed += other.passed
+        self.failed += other.failed
+        self.advisory += other.advisory
+        self.advisory_agreeing += other.advisory_agreeing
+        self.skipped += other.skipped
+
+    def fail(self, failure: Failure) -> None:
+        """Count one failure."""
+        self.failed += 1
+        self.failures.append(failure)
+
+    def summary(self) -> str:
+        """Say the counts in one line: ``N passed, M failed, K skipped (why: count), U advisory``."""
+        why = ", ".join(f"{reason}: {count}" for reason, count in sorted(self.skipped.items()))
+        skipped = f"{self.skipped.total()} skipped" + (f" ({why})" if why else "")
+        agree = f" ({self.advisory_agreeing} agree)" if self.advisory else ""
+        return f"{self.passed} passed, {self.failed} failed, {skipped}, {self.advisory} advisory{agree}"
+
+    def counts(self) -> dict[str, Any]:
+        """Return the counts for a machine to read."""
+        return {
+            "passed": self.passed,
+            "failed": self.failed,
+            "skipped": dict(self.skipped),
+            "advisory": {"compared": self.advisory, "agreeing": self.advisory_agreeing},
+        }
+
+
+def verify_file(
+    path: Path,
+    candidate: Candidate,
+    library: Library,
+    *,
+    only: Collection[str] = (),
+    progress: Progress | None = None,
+) -> Tally:
+    """Ask a candidate every record of a vector file and compare; signs of zero are equal there.
+
+    Parameters
+    ----------
+    path : Path
+        The file.
+    candidate : Candidate
+        Who is asked.
+    library : Library
+        The shared geometry of the file's folder.
+    only : collection of str
+        Ids of the records to ask; empty means all.
+    progress : Progress or None
+        Where to say how far it is.
+
+    Raises
+    ------
+    OSError
+        If the file cannot be read at all.
+    """
+    tally = Tally()
+    for count, item in enumerate(read_vectors(path, library)):
+        if progress is not None and count % _PROGRESS_STEP == 0:
+            progress.say(f"{path.name}: {count} records, {tally.failed} failed")
+        if isinstance(item, VectorError):
+            if not only or item.record_id in only:
+                tally.fail(Failure(item.line, None, error=str(item)))
+        elif not only or item.id in only:
+            _verify_record(item, candidate, tally)
+    return tally
+
+
+def _verify_record(record: VectorRecord, candidate: Candidate, tally: Tally) -> None:
+    outcome = candidate.answer(record.query)
+    if isinstance(outcome, Skipped):
+        tally.skipped[outcome.reason] += 1
+        return
+    if isinstance(outcome, Errored):
+        found, error = [], outcome.context
+    else:
+        found = differences(record.expected, outcome.fields, op=record.query.op, zero_signs="equal")
+        error = ""
+    if record.uncertain is not None:
+        tally.advisory += 1
+        tally.advisory_agreeing += not found and not error
+    elif found or error:
+        tally.fail(Failure(record.line, record, tuple(found), error))
+    else:
+        tally.passed += 1

@@ -1,0 +1,113 @@
+"""The engine as a candidate: it agrees with every shipped vector of part 1, and never raises."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+import pytest
+from shipped_vectors import VECTORS, library, records
+
+from conformance.candidates.engine_candidate import EngineCandidate
+from conformance.candidates.engine_ops import running, state_ops
+from conformance.candidates.engine_ops.world_cache import engine_shape, sole_world
+from conformance.candidates.oracle_candidate import OracleCandidate
+from conformance.compare import differences
+from conformance.query import Errored, Query, Result, Skipped
+from conformance.verification import verify_file
+
+if TYPE_CHECKING:
+    from conformance.query import Fields
+    from conformance.vector_io import VectorRecord
+
+COVERED = {
+    "math.jsonl": 268,
+    "polygon.jsonl": 529,
+    "bsp.jsonl": 600,
+    "find_collisions.jsonl": 851,
+    "transition.jsonl": 430,
+    "walk.jsonl": 44,
+    "boundary_math.jsonl": 101,
+    "boundary_polygon.jsonl": 434,
+    "boundary_bsp.jsonl": 240,
+    "boundary_find_collisions.jsonl": 398,
+    "boundary_transition.jsonl": 191,
+}
+
+
+@pytest.mark.parametrize("file", COVERED)
+def test_the_engine_agrees_with_retail(file: str) -> None:
+    """Nothing fails, nothing is skipped, and the advisory records agree too."""
+    tally = verify_file(VECTORS / file, EngineCandidate(), library())
+    assert [failure.record and failure.record.id for failure in tally.failures] == []
+    assert tally.skipped.total() == 0
+    assert tally.passed + tally.advisory == COVERED[file]
+    assert tally.advisory_agreeing == tally.advisory
+
+
+def fields(candidate: EngineCandidate | OracleCandidate, record: VectorRecord) -> Fields:
+    """Return a candidate's answer."""
+    outcome = candidate.answer(record.query)
+    assert isinstance(outcome, Result)
+    return outcome.fields
+
+
+@pytest.mark.parametrize("file", ["math", "boundary_transition", "boundary_find_collisions"])
+def test_engine_and_oracle_agree_on_the_signs_of_zero(file: str) -> None:
+    """The vectors take -0 for 0; the engine does not."""
+    for record in records(VECTORS / f"{file}.jsonl"):
+        retail, answer = fields(OracleCandidate(), record), fields(EngineCandidate(), record)
+        assert differences(retail, answer, op=record.query.op, zero_signs="distinct") == []
+
+
+def test_what_the_engine_does_not_do_is_skipped() -> None:
+    """The reason names the operation."""
+    outcome = EngineCandidate().answer(Query(op="terrain_block", inputs={}))
+    assert outcome == Skipped("not in the engine yet: operation terrain_block")
+
+
+def transition_record() -> VectorRecord:
+    """Return a shipped transition in one cell."""
+    return next(r for r in records(VECTORS / "transition.jsonl") if len(r.query.inputs["cells"]) == 1)
+
+
+def test_a_mover_outdoors_is_skipped() -> None:
+    """The landscape is not in the engine yet, and it says so."""
+    query = transition_record().query
+    outdoors = {**query.inputs["from"], "cell": 0xA9B40001}
+    inputs = {**query.inputs, "from": outdoors, "to": {**query.inputs["to"], "cell": 0xA9B40001}}
+    outcome = EngineCandidate().answer(Query(query.op, inputs, query.geometries))
+    assert outcome == Skipped("needs the landscape")
+
+
+def test_a_failure_is_an_error_not_an_exception() -> None:
+    """A cell that no world can have is told with the engine's own words."""
+    query = transition_record().query
+    (cell,) = query.inputs["cells"]
+    tilted = {**cell, "pose": {**cell["pose"], "rotation": [2.0, 0.0, 0.0, 0.0]}}
+    outcome = EngineCandidate().answer(Query(query.op, {**query.inputs, "cells": [tilted]}, query.geometries))
+    assert isinstance(outcome, Errored)
+    assert "pose, rotation: squared length 4.0 is not 1 within 0.001" in outcome.context
+
+
+def test_a_scaled_cell_is_an_error() -> None:
+    """A cell is tested at scale 1."""
+    record = next(r for r in records(VECTORS / "find_collisions.jsonl") if r.query.inputs["as"] == "cell")
+    query = Query(record.query.op, {**record.query.inputs, "scale": 2.0}, record.query.geometries)
+    outcome = EngineCandidate().answer(query)
+    assert isinstance(outcome, Errored)
+    assert "a cell is tested at scale 1, not 2.0" in outcome.context
+
+
+def test_a_geometry_is_compiled_once() -> None:
+    """The same geometry object has one shape and one world, however often it is asked about."""
+    geometry = library().geometries["ramp_24"]
+    assert engine_shape(geometry) is engine_shape(geometry)
+    assert sole_world(geometry) is sole_world(geometry)
+
+
+def test_a_long_trace_is_complete(monkeypatch: pytest.MonkeyPatch) -> None:
+    """When there is too little room for a trace, the query is run again with enough."""
+    record = max(records(VECTORS / "transition.jsonl"), key=lambda r: len(r.expected["trace"]))
+    assert len(record.expected["trace"]) > 20
+    monkeypatch.setattr(running, "TRACE_CAPACITY", 3)
+    assert state_ops.transition(record.query)["trace"] == record.expected["trace"]

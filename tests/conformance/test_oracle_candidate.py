@@ -1,0 +1,105 @@
+"""The oracle as a candidate: it agrees with every shipped vector that it covers, and never raises."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+import pytest
+from shipped_vectors import VECTORS, library, records
+
+from conformance.candidates.oracle_candidate import OPS, OracleCandidate
+from conformance.candidates.oracle_ops.geometry import oracle_geometry
+from conformance.candidates.oracle_ops.state_block import geometry_of
+from conformance.compare import differences
+from conformance.query import Errored, Query, Result, Skipped
+
+if TYPE_CHECKING:
+    from conformance.vector_io import VectorRecord
+
+STATE_FILES = {
+    "math": 268,
+    "boundary_math": 101,
+    "find_collisions": 851,
+    "boundary_find_collisions": 398,
+    "transition": 430,
+    "boundary_transition": 191,
+}
+"""The shipped files whose operations work on a transition, and how many records each has."""
+
+
+def disagreement(record: VectorRecord) -> str | None:
+    """Return what the oracle answers differently from retail, if anything."""
+    outcome = OracleCandidate().answer(record.query)
+    if not isinstance(outcome, Result):
+        return f"{record.id}: {outcome}"
+    found = differences(record.expected, outcome.fields, op=record.query.op, zero_signs="equal")
+    return f"{record.id}: {found}" if found else None
+
+
+@pytest.mark.parametrize(("name", "count"), STATE_FILES.items())
+def test_every_record_agrees_on_every_bit(name: str, count: int) -> None:
+    """No failure and no skip, advisory records included: states, planes, normals and traces."""
+    shipped = records(VECTORS / f"{name}.jsonl")
+    assert len(shipped) == count
+    assert [problem for problem in map(disagreement, shipped) if problem] == []
+
+
+def test_an_operation_without_a_port_is_skipped() -> None:
+    """The reason names the operation."""
+    outcome = OracleCandidate().answer(Query(op="terrain_block", inputs={}))
+    assert outcome == Skipped("not ported yet: operation terrain_block")
+
+
+def transition_record() -> VectorRecord:
+    """Return a shipped transition in one cell."""
+    return next(r for r in records(VECTORS / "transition.jsonl") if len(r.query.inputs["cells"]) == 1)
+
+
+def changed(query: Query, **inputs: Any) -> Query:
+    """Return a query with other inputs."""
+    return Query(query.op, {**query.inputs, **inputs}, query.geometries)
+
+
+def test_a_part_of_retail_without_a_port_is_skipped() -> None:
+    """A transition of an outdoor cell needs land cells; the reason names their section."""
+    query = transition_record().query
+    outdoors = 0xA9B40001
+    cell = {**query.inputs["cells"][0], "id": outdoors}
+    pose = {**query.inputs["to"], "cell": outdoors}
+    outcome = OracleCandidate().answer(
+        changed(query, cells=[cell], **{"from": pose, "to": pose}, begin_cell=outdoors)
+    )
+    assert isinstance(outcome, Skipped)
+    assert "09 6.4" in outcome.reason
+
+
+def test_a_failure_is_an_error_that_says_where() -> None:
+    """A query that names no geometry fails inside; the last place is told, nothing is raised."""
+    outcome = OracleCandidate().answer(Query("transition", transition_record().query.inputs))
+    assert isinstance(outcome, Errored)
+    assert outcome.context.startswith("KeyError")
+    assert "scene.py" in outcome.context
+
+
+def test_answers_do_not_depend_on_what_was_asked_before() -> None:
+    """The same query twice, with others in between, gives the same answer."""
+    oracle = OracleCandidate()
+    asked = records(VECTORS / "find_collisions.jsonl")[:40]
+    first = [oracle.answer(record.query) for record in asked]
+    assert [oracle.answer(record.query) for record in reversed(asked)][::-1] == first
+
+
+def test_the_oracle_covers_the_operations_of_parts_one_and_three() -> None:
+    """Frames, polygons, trees, transitions and walks; ticks."""
+    files = [*STATE_FILES, "polygon", "boundary_polygon", "bsp", "boundary_bsp", "walk", "tick"]
+    asked = {record.query.op for name in files for record in records(VECTORS / f"{name}.jsonl")}
+    assert asked == OPS.keys()
+
+
+def test_a_polygon_is_found_in_its_geometry() -> None:
+    """`walkable_geometry` is found by identity; a polygon of nothing is an error."""
+    first, second = library().geometries["seed_tri"], library().geometries["seed_tri_front"]
+    walkable = oracle_geometry(second).polygons[0]
+    assert geometry_of(walkable, [first, second]) == "seed_tri_front"
+    with pytest.raises(LookupError, match="no geometry"):
+        geometry_of(walkable, [first])

@@ -1,0 +1,278 @@
+"""The pytest plug-in, run as a user runs it."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+import pytest
+
+from conformance import items, plugin
+from conformance.query import Query, Skipped
+
+if TYPE_CHECKING:
+    from conformance.candidates.base import Candidate
+
+pytest_plugins = ["pytester"]
+
+ROOT = Path(__file__).parents[2]
+BUILT_IN = ROOT / "conformance" / "cases"
+ORIGIN = BUILT_IN / "contact-plane" / "origin.yaml"
+GOOD = """\
+id: {id}
+title: The identity
+why: To be run.
+retail: [Frame::cache §4.2]
+query: {{op: frame_cache, rotation: [1, 0, 0, 0]}}
+expect: {{m: [1, 0, 0, 0, 1, 0, 0, 0, 1]}}
+"""
+CONFTEST = "from conformance.conftest import pytest_addoption\n"
+
+
+@pytest.fixture
+def run(pytester: pytest.Pytester, monkeypatch: pytest.MonkeyPatch) -> pytest.Pytester:
+    """Return a project of its own that can use the plug-in."""
+    monkeypatch.setenv("PYTHONPATH", str(ROOT))
+    monkeypatch.setenv("CI", "1")  # pytest does not shorten the summary there
+    pytester.makeconftest(CONFTEST)
+    return pytester
+
+
+def case_file(project: pytest.Pytester, name: str, text: str) -> Path:
+    """Write a case file into the project."""
+    path = project.path / name
+    path.parent.mkdir(parents=True, exist_ok=True)
+    path.write_text(text, encoding="utf-8")
+    return path
+
+
+def test_cases_of_a_folder(run: pytest.Pytester) -> None:
+    """Each case is an item; the counts are told."""
+    case_file(run, "mine/a.yaml", GOOD.format(id="one"))
+    case_file(run, "mine/b.yml", GOOD.format(id="two"))
+    result = run.runpytest_inprocess("--cases", "mine", "--candidate", "oracle", "-v")
+    result.assert_outcomes(passed=2)
+    result.stdout.fnmatch_lines(
+        [
+            "mine/a.yaml::one PASSED*",
+            "mine/b.yml::two PASSED*",
+            "conformance: 2 cases, 2 queries compared, 0 skipped, 0 random queries, candidate oracle",
+        ]
+    )
+
+
+class NeverCandidate:
+    """Skips whatever it is asked."""
+
+    name = "never"
+
+    def answer(self, query: Query) -> Skipped:
+        """Skip."""
+        return Skipped(f"no {query.op}")
+
+
+def test_the_bug_that_this_suite_began_with(run: pytest.Pytester) -> None:
+    """Red, and one line says that the plane's D is 0 where retail has -94."""
+    result = run.runpytest_inprocess("--cases", str(ORIGIN), "--candidate", "bug:cell-origin")
+    assert result.ret == pytest.ExitCode.TESTS_FAILED
+    reason = "contact_plane.d: retail -94.0 (0xC2BC0000), bug:cell-origin -0.0 (0x80000000), 1.1e9 ULPs"
+    result.stdout.fnmatch_lines(
+        [
+            "*contact_plane.d *-94.0 (0xC2BC0000)*-0.0 (0x80000000)*",
+            "*rerun: pytest *origin.yaml::origin-step-down-touching --candidate bug:cell-origin*",
+            "*retail: *BSPTREE::step_sphere_down SD-1…SD-12*",
+            "*| *- id: origin-step-down-touching",
+            f"origin-step-down-touching: {reason}",
+            f"FAILED *::origin-step-down-touching - {reason}",
+        ]
+    )
+
+
+def test_the_same_over_workers(run: pytest.Pytester) -> None:
+    """With pytest-xdist the ids, results, reasons and counts are those of one process."""
+    pytest.importorskip("xdist")
+    args = ["--cases", str(ORIGIN), "--candidate", "bug:cell-origin", "-p", "no:randomly"]
+    alone = run.runpytest_subprocess(*args)
+    spread = run.runpytest_subprocess(*args, "-n", "2")
+    assert alone.ret == spread.ret == pytest.ExitCode.TESTS_FAILED
+
+    def told(result: pytest.RunResult) -> list[str]:
+        return [line for line in result.outlines if line.startswith(("conformance:", "origin-", "FAILED"))]
+
+    assert len(told(alone)) >= 3
+    assert told(spread) == told(alone)
+
+
+def test_a_mistyped_folder_is_an_error(run: pytest.Pytester) -> None:
+    """Not green, not silent."""
+    run.makepyfile("def test_passes(): pass")
+    result = run.runpytest_inprocess("--cases", "mistyped")
+    assert result.ret == pytest.ExitCode.USAGE_ERROR
+    result.stderr.fnmatch_lines(["*--cases mistyped: there is no such folder or file*"])
+
+
+def test_an_empty_folder_is_an_error(run: pytest.Pytester) -> None:
+    """A folder without case files is as bad as none."""
+    run.mkdir("empty")
+    run.makepyfile("def test_passes(): pass")
+    result = run.runpytest_inprocess("--cases", "empty")
+    assert result.ret == pytest.ExitCode.USAGE_ERROR
+
+
+def test_a_folder_of_files_without_cases_is_red(run: pytest.Pytester) -> None:
+    """An empty file, an empty list of cases: each fails."""
+    case_file(run, "mine/a.yaml", "")
+    case_file(run, "mine/b.yaml", "cases: []\n")
+    result = run.runpytest_inprocess("--cases", "mine")
+    result.assert_outcomes(failed=2)
+
+
+def test_a_suite_without_cases_is_red(run: pytest.Pytester, monkeypatch: pytest.MonkeyPatch) -> None:
+    """Even if other tests pass."""
+    monkeypatch.setattr(plugin, "BUILT_IN_CASES", run.mkdir("cases"))
+    run.makepyfile("def test_passes(): pass")
+    result = run.runpytest_inprocess("--candidate", "oracle")
+    result.assert_outcomes(passed=1)
+    assert result.ret == pytest.ExitCode.NO_TESTS_COLLECTED
+    result.stdout.fnmatch_lines(["conformance: no case was found"])
+
+
+def test_a_run_that_compares_nothing_is_red(run: pytest.Pytester, monkeypatch: pytest.MonkeyPatch) -> None:
+    """A candidate that skips every query is not conformant."""
+    monkeypatch.setattr("conformance.items.make_candidate", lambda _spec: NeverCandidate())
+    result = run.runpytest_inprocess("--cases", str(ORIGIN))
+    result.assert_outcomes(skipped=2)
+    assert result.ret == pytest.ExitCode.NO_TESTS_COLLECTED
+    result.stdout.fnmatch_lines(["conformance: nothing was compared"])
+
+
+def test_an_unknown_candidate_is_an_error(run: pytest.Pytester) -> None:
+    """With the nearest name."""
+    result = run.runpytest_inprocess("--candidate", "orakle")
+    assert result.ret == pytest.ExitCode.USAGE_ERROR
+    result.stderr.fnmatch_lines(["*unknown candidate 'orakle'*Did you mean 'oracle'?*"])
+
+
+def test_other_yaml_is_left_alone(run: pytest.Pytester) -> None:
+    """A user's own files are not ours to read."""
+    case_file(run, "compose.yaml", "services: {}\n")
+    run.makepyfile("def test_passes(): pass")
+    result = run.runpytest_inprocess()
+    result.assert_outcomes(passed=1)
+    assert not [line for line in result.outlines if line.startswith(("conformance:", "=== conformance"))]
+
+
+def test_a_broken_case_fails_and_the_others_run(run: pytest.Pytester) -> None:
+    """It fails with every mistake, located; its neighbours are run."""
+    text = "cases:\n" + "".join(
+        "  - " + GOOD.format(id=name).replace("\n", "\n    ").rstrip() + "\n" for name in ("one", "two")
+    )
+    text = text.replace("title: The identity\n    why: To be run.", "titel: x\n    why: ''", 1)
+    case_file(run, "mine/a.yaml", text)
+    result = run.runpytest_inprocess("--cases", "mine", "--candidate", "oracle", "-v")
+    result.assert_outcomes(passed=1, failed=1)
+    result.stdout.fnmatch_lines(
+        [
+            "mine/a.yaml::one-unreadable FAILED*",
+            "mine/a.yaml::two PASSED*",
+            "*mine*a.yaml:3:5: cases[[]0[]].titel",
+            "*the unknown key 'titel'",
+            "*did you mean 'title'[?]",
+            "*mine*a.yaml:4:10: cases[[]0[]].why",
+            "FAILED mine/a.yaml::one-unreadable - *no 'title'*(and 2 more)",
+        ]
+    )
+
+
+def test_the_same_id_in_two_files_is_red(run: pytest.Pytester) -> None:
+    """The first stays, the second fails and names both places."""
+    case_file(run, "mine/a.yaml", GOOD.format(id="one"))
+    case_file(run, "mine/b.yaml", GOOD.format(id="one"))
+    result = run.runpytest_inprocess("--cases", "mine", "--candidate", "oracle")
+    result.assert_outcomes(passed=1, failed=1)
+    result.stdout.fnmatch_lines(["FAILED *b.yaml:1:1: id: found the id 'one' again (first at *a.yaml:1:1)*"])
+
+
+class Half:
+    """A candidate that skips everything."""
+
+    name = "half"
+
+    def answer(self, query: Query) -> Skipped:
+        """Skip."""
+        return Skipped(f"needs {query.op}")
+
+
+def test_a_case_of_which_all_was_skipped_is_skipped(
+    run: pytest.Pytester, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """The reason and the line of the case are told, and counted."""
+    make = items.make_candidate
+
+    def half(spec: str) -> Candidate:
+        return Half() if spec == "engine" else make(spec)
+
+    monkeypatch.setattr(items, "make_candidate", half)
+    case_file(run, "mine/a.yaml", "# first line\n" + GOOD.format(id="one"))
+    result = run.runpytest_inprocess("--cases", "mine", "-rs")
+    result.assert_outcomes(skipped=1)
+    result.stdout.fnmatch_lines(
+        [
+            "conformance: 1 cases, 0 queries compared, 1 skipped (half: needs frame_cache: 1)*",
+            "SKIPPED [[]1[]] mine?a.yaml:2: half: needs frame_cache",
+        ]
+    )
+
+
+def test_found_cases_are_replayed_first(run: pytest.Pytester) -> None:
+    """What a random run has found comes before the cases that are asked for, and can be rerun alone."""
+    case_file(run, ".conformance/found/found-1.yaml", GOOD.format(id="found-1"))
+    case_file(run, "mine/a.yaml", GOOD.format(id="one"))
+    result = run.runpytest_inprocess("--cases", "mine", "--candidate", "oracle", "-v")
+    result.assert_outcomes(passed=2)
+    result.stdout.fnmatch_lines([".conformance/found/found-1.yaml::found-1 PASSED*", "*::one PASSED*"])
+    node = ".conformance/found/found-1.yaml::found-1"
+    run.runpytest_inprocess(node, "--candidate", "oracle").assert_outcomes(passed=1)
+
+
+def test_options_change_the_poses(run: pytest.Pytester) -> None:
+    """`--poses` sets how often a scene case is run, and is part of the rerun command."""
+    args = ["--cases", str(ORIGIN), "--poses", "3", "--pose-seed", "7"]
+    result = run.runpytest_inprocess(*args, "--candidate", "oracle")
+    result.stdout.fnmatch_lines(["conformance: 2 cases, 8 queries compared*"])
+    result = run.runpytest_inprocess(*args, "--candidate", "bug:cell-origin")
+    result.stdout.fnmatch_lines(["*--candidate bug:cell-origin --poses 3 --pose-seed 7 --cases *"])
+
+
+def test_a_case_can_be_selected(run: pytest.Pytester) -> None:
+    """By id, by tag, by op, by marker."""
+    for selection in (["-k", "origin-step-down-short"], ["-k", "cell-pose"], ["-m", "conformance"]):
+        result = run.runpytest_inprocess("--cases", str(ORIGIN), "--candidate", "oracle", *selection)
+        assert result.ret == pytest.ExitCode.OK
+        assert result.parseoutcomes()["passed"] >= 1
+
+
+def test_the_fixtures_of_the_plug_in(run: pytest.Pytester, monkeypatch: pytest.MonkeyPatch) -> None:
+    """Random tests get the candidate, the oracle and the folder of real cells."""
+    monkeypatch.delenv(plugin.FIXTURES_VARIABLE, raising=False)
+    run.makepyfile(
+        """
+        def test_names(candidate, oracle):
+            assert (candidate.name, oracle.name) == ("bug:cell-origin", "oracle")
+
+        def test_cells(fixtures_dir):
+            assert fixtures_dir.is_dir()
+        """
+    )
+    result = run.runpytest_inprocess("--candidate", "bug:cell-origin", "-rs")
+    result.assert_outcomes(passed=1, skipped=1)
+    result.stdout.fnmatch_lines(["SKIPPED*fixtures absent"])
+    result = run.runpytest_inprocess("--candidate", "bug:cell-origin", "--retail-fixtures", ".")
+    result.assert_outcomes(passed=2)
+
+
+def test_the_plug_in_loads_nothing_heavy(run: pytest.Pytester) -> None:
+    """It is imported in every pytest run of the environment."""
+    heavy = ["numpy", "numba", "pydantic", "hypothesis", "yaml", "engine", "oracle"]
+    done = run.runpython_c(f"import sys, conformance.plugin; print([m for m in {heavy} if m in sys.modules])")
+    assert done.outlines == ["[]"]

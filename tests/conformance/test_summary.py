@@ -1,0 +1,31 @@
+"""The counts at the end of a run."""
+
+from __future__ import annotations
+
+from conformance.summary import MOST_REASONS, PROPERTY, Counts
+
+
+def test_counts_of_reports_add_up() -> None:
+    """Cases, queries, random queries and skips, each by reason."""
+    counts = Counts()
+    assert not counts
+    counts.add([("other", 3), (PROPERTY, {"cases": 1, "queries": 9, "skipped": {"engine: b": 2}})])
+    counts.add([(PROPERTY, {"cases": 1, "queries": 1, "skipped": {"engine: b": 1, "engine: a": 1}})])
+    counts.add([(PROPERTY, {"random": 250, "skipped": {}})])
+    assert counts
+    (line,) = counts.lines("engine")
+    assert line.startswith(
+        "conformance: 2 cases, 10 queries compared, 4 skipped (engine: a: 1, engine: b: 3)"
+    )
+    assert line.endswith(", 250 random queries, candidate engine")
+
+
+def test_reasons_come_first_and_are_limited() -> None:
+    """One line for each failed case, up to a limit that is said."""
+    counts = Counts()
+    for n in range(MOST_REASONS + 2):
+        counts.add([(PROPERTY, {"cases": 1, "failure": f"case-{n}: d differs"})])
+    lines = counts.lines("x")
+    assert lines[0] == "case-0: d differs"
+    assert lines[MOST_REASONS] == "... and 2 more failed cases"
+    assert len(lines) == MOST_REASONS + 2
