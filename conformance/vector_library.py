@@ -5,7 +5,7 @@ from __future__ import annotations
 from functools import cached_property
 from typing import TYPE_CHECKING, Any, Final
 
-from conformance.inputs import geometry_names, read_block
+from conformance.inputs import read_block
 from conformance.json_lines import read_lines
 from conformance.scenes.records import geometry_from_record
 from conformance.vector_errors import DuplicateIdError, MalformedRecordError, VectorError
@@ -49,10 +49,6 @@ class Library:
         found: dict[str, dict[str, Any]] = {}
         self._read(WORLD_FILE, found, read_block)
         return found
-
-    def geometries_of(self, inputs: Mapping[str, Any]) -> dict[str, Geometry]:
-        """Collect the geometry that inputs refer to; raises `KeyError` with the first missing name."""
-        return {name: self.geometries[name] for name in geometry_names(inputs)}
 
     def _read(self, file: str, found: dict[str, Any], make: Callable[[dict[str, Any]], Any]) -> None:
         path = self.folder / file
