@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING, Final
 
 import numpy as np
 
+from conformance.candidates.dispatch_names import DISPATCH_NAMES
 from conformance.candidates.engine_ops.rows import numbers_of, query_row, take_path
 from conformance.candidates.engine_ops.running import run
 from conformance.candidates.engine_ops.state_block import state_block, walkable_geometry
@@ -22,17 +23,6 @@ if TYPE_CHECKING:
 
     from conformance.query import Fields, Query
     from engine.kernels.types import Array
-
-DISPATCH_NAMES: Final = {
-    "I": "initial_placement",
-    "P": "placement",
-    "W": "check_walkable",
-    "D": "step_down",
-    "L": "collide",
-    "K": "contact",
-    "M": "path_clipped",
-    "A": "airborne",
-}
 
 
 def find_collisions(question: Query) -> Fields:

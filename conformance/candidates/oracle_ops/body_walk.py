@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING, Any, Final
 
 from conformance.candidates.oracle_ops.body import Body
 from conformance.candidates.oracle_ops.scene import build_world
+from conformance.candidates.oracle_ops.state_block import struck
 from conformance.candidates.oracle_ops.values import nxyzd, quaternion, vector, xyz
 from oracle.arithmetic import f32
 from oracle.errors import NotPortedError
@@ -119,14 +120,8 @@ def _touched(body: Body) -> Fields:
         fields |= {"cp": nxyzd(body.contact_plane), "cp_cell": body.contact_plane_cell_id}
     if body.transient_state & SLIDING_TS:
         fields["sn"] = xyz(body.sliding_normal)
-    ci = body.accepted.collision_info if body.accepted is not None else None
-    if ci is not None:
-        if ci.collision_normal_valid:
-            fields["cn"] = xyz(ci.collision_normal)
-        if ci.frames_stationary_fall:
-            fields["fsf"] = ci.frames_stationary_fall
-        if ci.collided_with_environment:
-            fields["env"] = 1
+    if body.accepted is not None:
+        fields |= struck(body.accepted.collision_info)
     return fields
 
 

@@ -12,6 +12,7 @@ if TYPE_CHECKING:
 
     from conformance.query import Fields
     from conformance.scenes.model import Geometry
+    from oracle.collision_info import CollisionInfo
     from oracle.obj_cell import ObjCell
     from oracle.plane import Plane
     from oracle.polygon import Polygon
@@ -103,3 +104,15 @@ def _plane_block(valid: int, plane: Plane, cell_id: int, is_water: int) -> dict[
         "cell_id": cell_id,
         "is_water": is_water,
     }
+
+
+def struck(ci: CollisionInfo) -> Fields:
+    """Write what a tick of a walk has hit, under the short keys of walks; what was not hit is left out."""
+    fields: Fields = {}
+    if ci.collision_normal_valid:
+        fields["cn"] = xyz(ci.collision_normal)
+    if ci.frames_stationary_fall:
+        fields["fsf"] = ci.frames_stationary_fall
+    if ci.collided_with_environment:
+        fields["env"] = 1
+    return fields

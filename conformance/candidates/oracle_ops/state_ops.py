@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any, Final
 
+from conformance.candidates.dispatch_names import DISPATCH_NAMES
 from conformance.candidates.oracle_ops.blocks import take_mover, take_seed
 from conformance.candidates.oracle_ops.geometry import oracle_geometry
 from conformance.candidates.oracle_ops.scene import build_world
@@ -41,17 +42,6 @@ PATH_FLAGS: Final = (
 """Integer fields of the path block, 0 if absent."""
 PATH_NUMBERS: Final = ("step_down_amt", "walk_interp", "walkable_allowance")
 """Float fields of the path block, 0 if absent."""
-
-DISPATCH_NAMES: Final = {
-    trace.INITIAL_PLACEMENT: "initial_placement",
-    trace.PLACEMENT: "placement",
-    trace.CHECK_WALKABLE: "check_walkable",
-    trace.STEP_DOWN: "step_down",
-    trace.LANDING: "collide",
-    trace.CONTACT: "contact",
-    trace.PATH_CLIPPED: "path_clipped",
-    trace.AIRBORNE: "airborne",
-}
 
 
 def find_collisions(query: Query) -> Fields:

@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Any, Final
 
 from conformance.candidates.oracle_ops.blocks import take_mover
 from conformance.candidates.oracle_ops.scene import build_world
+from conformance.candidates.oracle_ops.state_block import struck
 from conformance.candidates.oracle_ops.values import frame, nxyzd, position, quaternion, vector, xyz
 from oracle.arithmetic import f32
 from oracle.constants import FLOOR_Z
@@ -142,16 +143,8 @@ class Walker:
 
 def _collided(made: Transition) -> Fields:
     """Write what was hit."""
-    ci = made.collision_info
-    fields: Fields = {}
-    if ci.collision_normal_valid:
-        fields["cn"] = xyz(ci.collision_normal)
-    if ci.frames_stationary_fall:
-        fields["fsf"] = ci.frames_stationary_fall
-    if ci.collided_with_environment:
-        fields["env"] = 1
     kills = made.object_info.mover().kill_velocity_calls
-    return fields | ({"kill": kills} if kills else {})
+    return struck(made.collision_info) | ({"kill": kills} if kills else {})
 
 
 OPS: Final[dict[str, Callable[[Query], Fields]]] = {"walk": _walk}
