@@ -12,10 +12,15 @@ from conformance.candidates.bug_candidate import BugCandidate
 from conformance.candidates.oracle_candidate import OracleCandidate
 from conformance.compare import differences, pin_differences
 from conformance.query import Result, Skipped
+from conformance.strategies.cell_queries import CELL_OPS, cell_queries
 from conformance.strategies.collisions import DISPATCHES, find_collisions, transitions
 from conformance.strategies.encounters import ENCOUNTERS
 from conformance.strategies.geometry_queries import BSP_OPS, POLYGON_OPS, geometry_queries
+from conformance.strategies.land_queries import LAND_DEFS_OPS, land_defs_queries
 from conformance.strategies.math_queries import FRAME_OPS, MOVER_OPS, frame_queries, mover_queries
+from conformance.strategies.object_calls import FUNCTIONS, object_calls, object_transitions
+from conformance.strategies.world_encounters import WORLD_ENCOUNTERS
+from conformance.strategies.world_queries import LAND_OPS, land_queries, world_transitions
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterable, Mapping, Sequence
@@ -35,11 +40,16 @@ FAMILIES: Final[Mapping[str, st.SearchStrategy[Query]]] = {
             *(geometry_queries(op) for op in (*POLYGON_OPS, *BSP_OPS)),
             *(frame_queries(op) for op in FRAME_OPS),
             *(mover_queries(op) for op in MOVER_OPS),
+            *(land_defs_queries(op) for op in LAND_DEFS_OPS),
         ]
     ),
-    "rare encounters": st.one_of(list(ENCOUNTERS.values())),
+    "rare encounters": st.one_of([*ENCOUNTERS.values(), *WORLD_ENCOUNTERS.values()]),
+    "objects": st.one_of([object_transitions(), *(object_calls(function) for function in FUNCTIONS)]),
+    "cells": st.one_of([*map(cell_queries, CELL_OPS), *map(land_queries, LAND_OPS)]),
+    "worlds": world_transitions(),
 }
-"""What is asked at random: every dispatch of a BSP call, whole transitions, small operations, rarities."""
+"""What is asked at random: BSP calls of every path, transitions, small operations, rarities; then objects,
+cells and land by themselves, and transitions in whole worlds."""
 _SEED: Final = 20130424
 """Makes the draws the same in every run of one Hypothesis version."""
 _TRACE: Final = "trace"
@@ -148,7 +158,7 @@ def _hunt_at_random(hunters: Sequence[Hunter], family: str, draws: int, progress
         for hunter in wanting:
             hunter.ask_random(query, truth, family, draw)
 
-    _draw(FAMILIES[family], draws, ask)
+    draw_queries(FAMILIES[family], draws, ask)
 
 
 class Hunter:
@@ -203,7 +213,7 @@ def first_difference(query: Query, truth: Outcome, given: Outcome) -> str:
     return names[0] if names else ""
 
 
-def _draw(queries: st.SearchStrategy[Query], draws: int, ask: Callable[[Query, int], None]) -> None:
+def draw_queries(queries: st.SearchStrategy[Query], draws: int, ask: Callable[[Query, int], None]) -> None:
     """Draw queries, the same in every run, and hand each one on with its number."""
     count = 0
 

@@ -2,17 +2,17 @@
 
 from __future__ import annotations
 
-import functools
 import zlib
 from dataclasses import replace
 from typing import TYPE_CHECKING, Any, Final
 
 from conformance.case import Case
 from conformance.case_pins import make_pins
-from conformance.case_query import make_query
+from conformance.case_query import asked_op, make_query
 from conformance.case_scene import SceneMaker
 from conformance.case_walk_pins import make_walk_pins
-from conformance.scenes.poses import MOVABLE_OPS, seeded_poses, transform_query
+from conformance.case_world_inputs import make_scene
+from conformance.scenes.poses import moved_queries
 from conformance.schema.case import CaseModel, check_parts
 from conformance.schema.scene import SceneModel
 from conformance.step_outputs import STEP_OF
@@ -22,7 +22,6 @@ if TYPE_CHECKING:
     from conformance.case import Vary
     from conformance.pins import Pin
     from conformance.query import Query
-    from conformance.scenes.rigid import Transform
     from conformance.source import DocPath, Fault, Problem
     from conformance.yaml_source import Document
 
@@ -79,7 +78,7 @@ def load_case(document: Document, below: DocPath, data: Any, vary: Vary) -> tupl
 
 def _pins(model: CaseModel, query: Query | None) -> tuple[tuple[Pin, ...], list[Fault]]:
     """Read what is pinned; of a walk with mistakes nothing, because the ticks are not known."""
-    op = model.query.op
+    op = asked_op(model)
     if op not in STEP_OF:
         return make_pins(op, model.expect)
     return ((), []) if query is None else make_walk_pins(op, model.expect, query)
@@ -94,7 +93,11 @@ def _scene_faults(data: Any) -> list[Fault]:
     maker = SceneMaker("")
     if model.geometry is not None:
         maker.geometry(model.geometry, ("scene", "geometry"))
-    maker.scene(model, ("scene",))
+    elif model.is_world:
+        query = data.get("query")
+        make_scene(model, str(query.get("op")) if isinstance(query, dict) else "", maker)
+    else:
+        maker.scene(model, ("scene",))
     return maker.faults
 
 
@@ -122,16 +125,8 @@ def _variants(model: CaseModel, query: Query, vary: Vary) -> list[Query]:
     count = asked.poses if asked is not None else default
     if vary.poses is not None and count:
         count = vary.poses
-    if query.op not in MOVABLE_OPS or not count:
-        return []
     seed = vary.seed if vary.seed is not None else asked.seed if asked is not None else None
-    transforms = _poses(count, zlib.crc32(model.id.encode()) if seed is None else seed)
-    moved = (transform_query(query, transform) for transform in transforms)
+    moved = moved_queries(query, count, zlib.crc32(model.id.encode()) if seed is None else seed)
     return [
         replace(variant, label=f"{model.id}[pose {number}]") for number, variant in enumerate(moved, start=1)
     ]
-
-
-@functools.cache
-def _poses(count: int, seed: int) -> list[Transform]:
-    return seeded_poses(count, seed)

@@ -12,7 +12,7 @@ from conformance.outputs import OUTPUTS
 from conformance.pins import Pin
 from conformance.schema.expect import FreeNumberModel
 from conformance.schema.values import MOVER_STATES
-from conformance.shapes import FLOAT_KINDS, Kind
+from conformance.shapes import FLOAT_KINDS, Kind, Listing, Nullable
 from conformance.source import Fault, describe, format_path, nearest, parse_path, quoted
 from conformance.step_outputs import STEP_OUTPUTS
 from conformance.validation import validate
@@ -56,6 +56,8 @@ def make_pins(
             pins += _pins(op, path, value)
         except _WrongPinError as error:
             faults += [error.fault]
+    if not faults:
+        pins += _counts(op, expect, ())
     return tuple(pins), [replace(fault, path=(*below, *fault.path)) for fault in faults]
 
 
@@ -67,7 +69,7 @@ class _WrongPinError(Exception):
 
 def _leaves(value: Any, path: DocPath) -> Iterator[tuple[DocPath, Any]]:
     """Yield the values that are pinned one by one: everything but blocks and lists of more."""
-    if isinstance(value, dict) and not set(FreeNumberModel.model_fields) & set(value):
+    if _is_block(value):
         for key, inner in value.items():
             yield from _leaves(inner, (*path, key))
     elif isinstance(value, list) and not all(isinstance(item, str) for item in value):
@@ -75,6 +77,25 @@ def _leaves(value: Any, path: DocPath) -> Iterator[tuple[DocPath, Any]]:
             yield from _leaves(inner, (*path, index))
     else:
         yield path, value
+
+
+def _is_block(value: Any) -> bool:
+    """Tell a block of fields from a number with its freedom."""
+    return isinstance(value, dict) and not set(FreeNumberModel.model_fields) & set(value)
+
+
+def _counts(op: str, value: Any, path: DocPath) -> Iterator[Pin]:
+    """Yield how many items each pinned list has; a vector always has as many."""
+    if _is_block(value):
+        for key, inner in value.items():
+            yield from _counts(op, inner, (*path, key))
+    elif isinstance(value, list) and value and not any(isinstance(item, str) for item in value):
+        name = format_path(path)
+        shape = locate(op, name)[1]
+        if isinstance(shape.inner if isinstance(shape, Nullable) else shape, Listing):
+            yield Pin(name, value, count=len(value))
+        for index, inner in enumerate(value):
+            yield from _counts(op, inner, (*path, index))
 
 
 def _pins(op: str, path: DocPath, value: Any) -> Iterator[Pin]:

@@ -2,26 +2,41 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any
+from types import MappingProxyType
+from typing import TYPE_CHECKING, Any, Final
 
+from conformance.case_references import check_references
 from conformance.case_ticks import body_block, held_inputs, recorded_moves
+from conformance.case_world_inputs import world_inputs, world_scene
 from conformance.fields import FieldError, UnknownOperationError
 from conformance.query import Query
-from conformance.schema.geometry_queries import BspAdjustToPlaneQuery, PolygonQuery
-from conformance.schema.movement_queries import FindCollisionsQuery, TransitionQuery
+from conformance.scenes.model import Pose
+from conformance.schema.frames import PlaceModel, PoseModel
+from conformance.schema.movement_queries import CallQuery, TransitionQuery
 from conformance.schema.query import RawQuery
-from conformance.schema.scene import PoseModel
-from conformance.schema.values import INSERT_TYPES, Strictly
+from conformance.schema.values import INSERT_TYPES, OBJECT_STATES, Strictly
 from conformance.schema.walk_queries import BodyWalkQuery, WalkQuery
+from conformance.schema.world_queries import CrossCellsQuery, ObjectTransitionQuery, TerrainBlockQuery
 from conformance.source import Fault, parse_path, quoted
 from conformance.vector_io import query_from_record
 
 if TYPE_CHECKING:
+    from collections.abc import Mapping
+
     from conformance.case_scene import SceneMaker
     from conformance.scenes.model import Cell
     from conformance.schema.case import CaseModel
-    from conformance.schema.scene import SceneModel
     from conformance.source import DocPath
+
+WORLD_OPS: Final[Mapping[str, str]] = MappingProxyType(
+    {"transition": "world_transition", "walk": "world_walk"}
+)
+"""What an op of a scene of cells is called in a world."""
+
+
+def asked_op(case: CaseModel) -> str:
+    """Return the operation that a case asks: in a world some have another name."""
+    return WORLD_OPS.get(case.query.op, case.query.op) if world_scene(case) else case.query.op
 
 
 def make_query(case: CaseModel, maker: SceneMaker) -> Query | None:
@@ -34,24 +49,28 @@ def make_query(case: CaseModel, maker: SceneMaker) -> Query | None:
     """
     if isinstance(case.query, RawQuery):
         return _raw_query(case, case.query, maker)
-    inputs = _scene_inputs(case, maker)
+    world = world_scene(case)
+    inputs = world_inputs(case.query, world, maker) if world else _scene_inputs(case, maker)
     if isinstance(case.query, WalkQuery | BodyWalkQuery):
         inputs |= _walk_inputs(case.query, maker)
-    else:
+    elif not isinstance(
+        case.query, TerrainBlockQuery | CrossCellsQuery
+    ):  # whose keys are made with the world
         inputs |= _block(case.query, maker, ("query",))
         inputs.pop("op")
     if case.mover is not None:
-        inputs["mover"] = _block(case.mover, maker, ("mover",))
-    if isinstance(case.query, FindCollisionsQuery):
+        mover = _block(case.mover, maker, ("mover",))
+        inputs["mover"] = mover | {"ethereal": OBJECT_STATES["ethereal"] if mover["ethereal"] else 0}
+    if isinstance(case.query, CallQuery):
         inputs["path"]["insert_type"] = INSERT_TYPES[case.query.path.insert_type]
         if at := inputs.pop("at", None):
             inputs["from"] = inputs["to"] = at
-    if isinstance(case.query, TransitionQuery):
+    if isinstance(case.query, TransitionQuery | ObjectTransitionQuery):
         inputs.setdefault("from", None)  # FORMAT.md: null asks for a placement
-    _check_references(case, maker)
+    maker.faults += check_references(case, maker.geometries)
     if maker.faults:
         return None
-    return Query(case.query.op, inputs, maker.geometries, case.id)
+    return Query(asked_op(case), inputs, maker.geometries, case.id)
 
 
 def _scene_inputs(case: CaseModel, maker: SceneMaker) -> dict[str, Any]:
@@ -61,7 +80,7 @@ def _scene_inputs(case: CaseModel, maker: SceneMaker) -> dict[str, Any]:
         geometry = maker.geometry(case.scene.geometry, ("scene", "geometry"))
         return {"geometry": geometry.name if geometry else ""}
     scene = maker.scene(case.scene, ("scene",))
-    if isinstance(case.query, FindCollisionsQuery):
+    if case.query.op == "find_collisions":
         return _called_tree(scene.cells, maker)
     return {"cells": [cell.to_record() for cell in scene.cells]}
 
@@ -105,33 +124,14 @@ def _value(value: Any, maker: SceneMaker, path: DocPath) -> Any:
     match value:
         case PoseModel():
             return maker.pose(value, value.cell, path).to_record()
+        case PlaceModel():
+            return Pose(value.cell, value.origin).to_record()
         case Strictly():
             return _block(value, maker, path)
         case list() | tuple():
             return [_value(item, maker, path) for item in value]
         case _:
             return value
-
-
-def _check_references(case: CaseModel, maker: SceneMaker) -> None:
-    """Check that the polygon or the cell that a query names is there."""
-    query, scene = case.query, case.scene
-    if isinstance(query, PolygonQuery | BspAdjustToPlaneQuery):
-        count = len(next(iter(maker.geometries.values())).polygons) if maker.geometries else 0
-        if maker.geometries and query.poly >= count:
-            expected = f"the index of one of its {count} polygons"
-            maker.faults.append(Fault(("query", "poly"), f"the number {query.poly}", expected))
-    if isinstance(query, TransitionQuery) and scene is not None:
-        _check_cell(query.begin_cell, scene, ("query", "begin_cell"), maker)
-    if isinstance(query, WalkQuery | BodyWalkQuery) and scene is not None:
-        _check_cell(query.start.cell, scene, ("query", "start", "cell"), maker)
-
-
-def _check_cell(cell: int, scene: SceneModel, path: DocPath, maker: SceneMaker) -> None:
-    ids = [one.id for one in scene.cells or ()]
-    if cell not in ids:
-        expected = f"a cell of the scene: {', '.join(f'0x{known:08X}' for known in ids)}"
-        maker.faults.append(Fault(path, f"the cell 0x{cell:08X}", expected))
 
 
 def _raw_query(case: CaseModel, raw: RawQuery, maker: SceneMaker) -> Query | None:

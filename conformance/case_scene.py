@@ -6,8 +6,9 @@ import functools
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Any, TypeVar
 
+from conformance.scenes.algebra import ORIGIN
 from conformance.scenes.bsp_builder import TreeStyle, build
-from conformance.scenes.cell_planes import box_planes
+from conformance.scenes.cell_planes import box_planes, convex_planes
 from conformance.scenes.errors import SceneError
 from conformance.scenes.model import Cell, Geometry, Pose, Scene, Static
 from conformance.scenes.polygons import Shape, place, round_shape
@@ -22,15 +23,10 @@ if TYPE_CHECKING:
     from collections.abc import Callable
 
     from conformance.scenes.model import PlaneData, Quaternion
+    from conformance.schema.frames import FrameModel
+    from conformance.schema.geometry import ContainsModel, GeometryModel
     from conformance.schema.primitives import ShapeModel
-    from conformance.schema.scene import (
-        CellModel,
-        ContainsModel,
-        FrameModel,
-        GeometryModel,
-        SceneModel,
-        StaticModel,
-    )
+    from conformance.schema.scene import CellModel, SceneModel, StaticModel
     from conformance.source import DocPath
 
 
@@ -62,8 +58,16 @@ class SceneMaker:
 
     def pose(self, model: FrameModel, cell: int, path: DocPath) -> Pose:
         """Make a pose; an unusable rotation is a fault and becomes the identity."""
-        rotation = self._attempt(lambda: _rotation(model, cell), path)
+        rotation = self.attempt(lambda: _rotation(model, cell), path)
         return Pose(cell, model.origin, rotation or (1.0, 0.0, 0.0, 0.0))
+
+    def quiet_pose(self, model: FrameModel, cell: int) -> Pose:
+        """Make a pose whose faults are told elsewhere."""
+        return SceneMaker(self.case_id).pose(model, cell, ())
+
+    def fault(self, path: DocPath, found: str, expected: str) -> None:
+        """Note a mistake."""
+        self.faults.append(Fault(path, found, expected))
 
     def geometry(self, model: GeometryModel, path: DocPath) -> Geometry | None:
         """Make a geometry under a name of its own, or note why it cannot be made."""
@@ -94,7 +98,8 @@ class SceneMaker:
             for index, static in enumerate(model.statics)
         )
         statics = tuple(static for static in made if static is not None)
-        return Cell(model.id, pose, geometry, statics, tuple(model.portals))
+        portals = tuple(portal for portal in model.portals if isinstance(portal, int))
+        return Cell(model.id, pose, geometry, statics, portals)
 
     def _static(self, model: StaticModel, cell: int, path: DocPath) -> Static | None:
         pose = self.pose(model.pose, cell, (*path, "pose"))
@@ -107,27 +112,27 @@ class SceneMaker:
         origins: list[DocPath] = []
         for index, item in enumerate(items):
             here = (*path, index, item.name)
-            polygons = self._attempt(functools.partial(_polygons, item), here, inside=item.name) or []
+            polygons = self.attempt(functools.partial(_polygons, item), here, inside=item.name) or []
             shape += polygons
             explicit = item.polygons is not None
             origins += [(*here, n) if explicit else here for n in range(len(polygons))]
         return shape, origins
 
     def _recorded(self, record: dict[str, Any], path: DocPath) -> Geometry | None:
-        geometry = self._attempt(lambda: geometry_from_record(record, ""), path)
+        geometry = self.attempt(lambda: geometry_from_record(record, ""), path)
         return None if geometry is None else self._add(geometry)
 
     def _planes(self, model: GeometryModel, path: DocPath) -> tuple[PlaneData, ...] | None:
         contains = model.contains
         if contains is None:
             return None
-        return self._attempt(lambda: _cell_planes(contains), (*path, "contains"))
+        return self.attempt(lambda: _cell_planes(contains, model), (*path, "contains"))
 
     def _add(self, geometry: Geometry) -> Geometry:
         self.geometries[geometry.name] = geometry
         return geometry
 
-    def _attempt(self, make: Callable[[], T], path: DocPath, *, inside: str = "") -> T | None:
+    def attempt(self, make: Callable[[], T], path: DocPath, *, inside: str = "") -> T | None:
         """Make something; a scene error becomes a fault at `path`, without the part `inside` of its own."""
         try:
             return make()
@@ -168,7 +173,9 @@ def _polygon_fault(error: SceneError, origins: list[DocPath]) -> Fault:
     return Fault((*origin, *corner) if explicit else origin, found, error.expected)
 
 
-def _cell_planes(model: ContainsModel) -> tuple[PlaneData, ...]:
+def _cell_planes(model: ContainsModel, geometry: GeometryModel) -> tuple[PlaneData, ...]:
     if model.low is not None and model.high is not None:
         return box_planes(model.low, model.high)
+    if (room := geometry.room) is not None and model.room:
+        return convex_planes(place(PRIMITIVES["room"](size=room.size), room.at or ORIGIN, room.yaw or 0.0))
     return tuple(model.planes or ())

@@ -1,4 +1,4 @@
-"""The command line: `conformance verify | export | lint | bugs | trace | trace-log`."""
+"""The command line: `conformance verify | export | lint | bugs | coverage | trace | trace-log`."""
 
 from __future__ import annotations
 
@@ -8,7 +8,7 @@ from importlib import metadata
 from typing import TYPE_CHECKING, Final
 
 from conformance import exit_codes
-from conformance.commands import bugs, export, lint, trace, trace_log, verify
+from conformance.commands import bugs, coverage, export, lint, trace, trace_log, verify
 from conformance.commands.options import UsageError
 from conformance.console import tolerate_unprintable
 
@@ -22,6 +22,7 @@ _COMMANDS: Final[dict[str, ModuleType]] = {
     "export": export,
     "lint": lint,
     "bugs": bugs,
+    "coverage": coverage,
     "trace": trace,
     "trace-log": trace_log,
 }

@@ -142,6 +142,13 @@ def pin_differences(pins: Iterable[Pin], actual: Fields, *, op: str) -> list[Dif
 
 def _missed(pin: Pin, actual: Fields, op: str, below: Place) -> list[Difference]:
     place, shape = locate(op, pin.path)
+    if pin.count is not None:
+        given = field_at(actual, op, pin.path)
+        if isinstance(given, list | tuple) and len(given) == pin.count:
+            return []
+        note = f"{pin.count} items, candidate {len(given) if isinstance(given, list | tuple) else 'none'}"
+        where = below.below(place)
+        return [Difference(where.path, where.name, Kind.BLOCK, pin.value, given, note)]
     comparison = _Comparison(distinct_zeros=False, tolerance=pin.tolerance)
     expected = normalise_shape(shape, pin.value, pin.path)
     comparison.compare(shape, expected, field_at(actual, op, pin.path), below.below(place))

@@ -5,9 +5,12 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from conformance import plugin, profiles
+from conformance.agreement import agree
 
 if TYPE_CHECKING:
     import pytest
+
+__all__ = ["agree"]
 
 profiles.register()
 

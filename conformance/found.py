@@ -28,6 +28,7 @@ _CLASSES: Final = {
     "plane_": "Plane",
     "polygon_": "CPolygon",
     "bsp_": "BSPNODE",
+    "landdefs_": "LandDefs",
 }
 """Families of operations that are named after their retail functions."""
 
@@ -47,7 +48,23 @@ _FUNCTIONS: Final[Mapping[str, str]] = {
     "bsp_sphere_intersects_cell": "BSPNODE::sphere_intersects_cell_bsp",
     "find_collisions": "BSPTREE::find_collisions",
     "transition": "CTransition::find_valid_position",
+    "object_call": "CPhysicsObj::FindObjCollisions",
+    "object_transition": "CTransition::find_valid_position",
+    "world_transition": "CTransition::find_valid_position",
+    "find_time_of_collision": "CSphere::find_time_of_collision",
+    "land_find_env_collisions": "CLandCell::find_env_collisions",
+    "land_validate_walkable": "OBJECTINFO::validate_walkable",
+    "land_find_terrain_poly": "CLandCell::find_terrain_poly",
+    "terrain_split": "CLandBlockStruct::ConstructPolygons",
+    "terrain_block": "CLandBlockStruct::generate",
+    "add_all_outside_cells": "CLandCell::add_all_outside_cells",
+    "find_cell_list": "CObjCell::find_cell_list",
+    "find_transit_cells": "CEnvCell::find_transit_cells",
+    "check_building_transit": "CEnvCell::check_building_transit",
+    "point_in_cell": "CEnvCell::point_in_cell",
+    "cross_cells": "CPhysicsObj::calc_cross_cells",
     "walk": "CTransition::find_valid_position",
+    "world_walk": "CTransition::find_valid_position",
     "body_walk": "CPhysicsObj::UpdateObjectInternal",
 }
 """The other operations' retail functions."""
@@ -116,7 +133,7 @@ def found_document(
 
 
 def retail_function(op: str) -> str:
-    """Return the retail function that an operation of part 1 of FORMAT.md asks."""
+    """Return the retail function that an operation of FORMAT.md asks; not for single calls of part 3."""
     if op in _FUNCTIONS:
         return _FUNCTIONS[op]
     prefix = next(prefix for prefix in _CLASSES if op.startswith(prefix))

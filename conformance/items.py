@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import shlex
+from dataclasses import replace
 from typing import TYPE_CHECKING, Any, Final
 
 import pytest
@@ -10,6 +11,8 @@ import pytest
 from conformance.candidates.registry import make_candidate
 from conformance.loader import Vary, duplicate_id, load_file
 from conformance.summary import PROPERTY
+from conformance.trace_excerpt import excerpt
+from conformance.traced import parse_topics
 from conformance.verdict import judge
 
 if TYPE_CHECKING:
@@ -20,8 +23,10 @@ if TYPE_CHECKING:
     from conformance.candidates.base import Candidate
     from conformance.loader import Case
     from conformance.source import Location, Problem
-    from conformance.verdict import Verdict
+    from conformance.verdict import Failure, Verdict
 
+DEFAULT_TOPICS: Final = "cp-write"
+"""What a failure shows of who wrote what, unless ``--trace-writes`` says otherwise."""
 MOST_SOURCE_LINES: Final = 60
 """Lines of a case's source shown with its failure."""
 
@@ -106,14 +111,16 @@ class CaseItem(pytest.Item):
     def runtest(self) -> None:
         """Ask retail and the candidate, and compare."""
         __tracebackhide__ = True
-        candidate = candidate_of(self.config, self.config.getoption("--candidate", "engine"))
-        verdict = judge(self.case, candidate, candidate_of(self.config, "oracle"))
+        verdict = judge(self.case, self._candidate(), candidate_of(self.config, "oracle"))
         self.user_properties.append((PROPERTY, self._counts(verdict)))
         if verdict.failures:
             raise CaseFailedError(verdict)
         if not verdict.compared:
             reason = "; ".join(verdict.skipped)
             raise pytest.skip.Exception(reason, _use_item_location=True)
+
+    def _candidate(self) -> Candidate:
+        return candidate_of(self.config, self.config.getoption("--candidate", "engine"))
 
     def _counts(self, verdict: Verdict) -> dict[str, Any]:
         counts = {"cases": 1, "queries": verdict.compared, "skipped": dict(verdict.skipped)}
@@ -131,13 +138,22 @@ class CaseItem(pytest.Item):
         if not isinstance(excinfo.value, CaseFailedError):
             return super().repr_failure(excinfo, style)
         failures = excinfo.value.verdict.failures
-        first = failures[0]
+        first = self._with_writes(failures[0])
         text = [first.render(self.case, self.rerun_command())]
         if len(failures) > 1:
             labels = ", ".join(failure.query.label for failure in failures[1:])
             text.append(f"  also: {labels}")
         text += ["", f"  retail: {'; '.join(self.case.retail)}", "", f"{self.case.location}", *self._source()]
         return _told(excinfo, self.case.location, first.summary, "\n".join(text))
+
+    def _with_writes(self, failure: Failure) -> Failure:
+        """Add who wrote what, by asking once more."""
+        topics = parse_topics(self.config.getoption("--trace-writes", None) or DEFAULT_TOPICS)
+        oracle = candidate_of(self.config, "oracle")
+        who = oracle if failure.who == oracle.name else self._candidate()
+        writes = excerpt(failure.query, failure.found, oracle, who, topics) if failure.found else ()
+        gap = ("",) * bool(writes and failure.around)
+        return replace(failure, around=(*failure.around, *gap, *writes))
 
     def _source(self) -> list[str]:
         first = self.case.first_line
@@ -149,7 +165,7 @@ class CaseItem(pytest.Item):
     def rerun_command(self) -> str:
         """Return the command that runs only this case."""
         parts = ["pytest", f"{_relative(self.path, self.config.invocation_params.dir)}::{self.name}"]
-        for option in ("--candidate", "--poses", "--pose-seed"):
+        for option in ("--candidate", "--poses", "--pose-seed", "--trace-writes"):
             value = self.config.getoption(option, None)
             if value is not None and value != "engine":
                 parts += [option, str(value)]

@@ -44,9 +44,13 @@ class Pin:
         How far a number may be off; None pins it exactly.
     ticks : Ticks or None
         For a walk: `path` is then a field of `conformance.step_outputs.STEP_OUTPUTS`, pinned in these ticks.
+    count : int or None
+        For a list: `path` must have so many items; those items have pins of their own, and `value` is for
+        messages.
     """
 
     path: str
     value: Any
     tolerance: Tolerance | None = None
     ticks: Ticks | None = None
+    count: int | None = None

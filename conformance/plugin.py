@@ -66,6 +66,12 @@ def pytest_addoption(parser: pytest.Parser) -> None:
     )
     group.addoption("--poses", type=int, metavar="N", help="random poses in which to run each scene case")
     group.addoption("--pose-seed", type=int, metavar="N", help="seed of the random poses")
+    group.addoption(
+        "--trace-writes",
+        metavar="TOPICS",
+        help="what a failure shows of who wrote what, comma-separated: cp-write, lkp-write, walkable, "
+        "sliding, state, cell-transit, bsp (default: cp-write)",
+    )
 
 
 def pytest_configure(config: pytest.Config) -> None:
@@ -73,6 +79,7 @@ def pytest_configure(config: pytest.Config) -> None:
     config.addinivalue_line("markers", "conformance: a YAML case, compared with retail")
     given = [_case_path(text) for text in config.getoption("--cases", [])]
     _check_candidate(config)
+    _check_topics(config)
     config.stash[_COLLECTED] = 0
     config.stash[_TALLY] = Tally()
     config.pluginmanager.register(config.stash[_TALLY], "conformance-tally")
@@ -107,6 +114,17 @@ def _check_candidate(config: pytest.Config) -> None:
 
         if spec not in candidate_names():
             raise pytest.UsageError(f"--candidate: {UnknownCandidateError(spec, candidate_names())}")
+
+
+def _check_topics(config: pytest.Config) -> None:
+    text = config.getoption("--trace-writes", None)
+    if text is not None:
+        from conformance.traced import TopicsError, parse_topics
+
+        try:
+            parse_topics(text)
+        except TopicsError as error:
+            raise pytest.UsageError(f"--trace-writes: {error}") from error
 
 
 def _covers(config: pytest.Config, place: Path) -> bool:

@@ -43,6 +43,10 @@ class Query:
     geometries: Mapping[str, Geometry] = field(default_factory=dict)
     label: str = ""
 
+    def _repr_pretty_(self, printer: Any, _cycle: bool) -> None:
+        # Hypothesis writes what failed: a world would fill its report, and ours tells the scene anyway.
+        printer.text(f"Query(op={self.op!r}, label={self.label!r})")
+
 
 @dataclass(frozen=True, slots=True)
 class Result:

@@ -10,6 +10,7 @@ import functools
 import json
 import re
 from importlib import resources
+from types import MappingProxyType
 from typing import TYPE_CHECKING, Final, TypeAlias
 
 from conformance.source import nearest
@@ -24,12 +25,24 @@ Index: TypeAlias = "Mapping[str, Mapping[str, list[str]]]"
 INDEX_FILE: Final = "retail_index.json"
 
 _FUNCTION: Final = re.compile(r"\b([A-Z]\w*)::(~?[a-zA-Z]\w*)(?!:)\b")
-_BARE_HEADING: Final = re.compile(r"^##+ (?:[\d.]+ )?`?([a-zA-Z]\w*)(?:\(| - )", re.MULTILINE)
+_BARE_HEADING: Final = re.compile(r"^##+ (?:([\d.]+) )?`?([a-zA-Z]\w*)(?:\(| - | \(\w+ form\))", re.MULTILINE)
 _VIRTUAL_SECTION: Final = re.compile(r"^## [^\n]*`(\w+)\(.*?(?=^## |\Z)", re.MULTILINE | re.DOTALL)
 _STEP: Final = re.compile(r"\b([A-Z][A-Z0-9]*-\d+[a-z]?)\b")
 _SECTION: Final = re.compile(r"^##+ (\d+(?:\.\d+)*)\.? ", re.MULTILINE)
 _CITATION: Final = re.compile(r"([A-Za-z]\w*::~?\w+)(?: (.+))?")
-_CLASS_OF_BARE_NAMES: Final = {"05-transition.md": "CTransition", "06-tick.md": "CPhysicsObj"}
+_CLASS_OF_BARE_NAMES: Final[Mapping[str, Mapping[str, str]]] = MappingProxyType(
+    {
+        "05-transition.md": {"": "CTransition"},
+        "06-tick.md": {"": "CPhysicsObj"},
+        "07-sphere-and-cylsphere.md": {"10.": "CCylSphere"},
+        "10-terrain-and-landdefs.md": {
+            "2.": "LandDefs",
+            "3.": "CLandBlockStruct",
+            "6.": "CLandBlockStruct",
+        },
+    }
+)
+"""The class that headings without one mean, by document and by the section's number."""
 _HOW: Final = "FUNCTION, or FUNCTION STEPS, such as 'BSPTREE::step_sphere_down SD-1…SD-12'"
 
 
@@ -99,8 +112,9 @@ def write_index(index: Index) -> str:
 
 def _functions(name: str, text: str) -> set[str]:
     found = {f"{cls}::{function}" for cls, function in _FUNCTION.findall(text)}
-    if cls := _CLASS_OF_BARE_NAMES.get(name):
-        found |= {f"{cls}::{function}" for function in _BARE_HEADING.findall(text)}
+    for section, cls in _CLASS_OF_BARE_NAMES.get(name, {}).items():
+        headings = _BARE_HEADING.findall(text)
+        found |= {f"{cls}::{function}" for number, function in headings if number.startswith(section)}
     for match in _VIRTUAL_SECTION.finditer(text):
         # A function that nodes and leaves each implement has one section, with a part for either.
         if "**BSPNODE**" in match[0]:

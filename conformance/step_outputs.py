@@ -35,11 +35,12 @@ _STEP: Final[dict[str, Shape]] = {
     "frames_stationary_fall": COUNT,
     "collided_with_environment": FLAG,
     "kill_velocity": COUNT,
+    "objects": Listing(COUNT),
     "trace": TEXT,
 }
 TICKS: Final = Listing(Block(_STEP), step="tick")
 """The list of a walk's ticks."""
-_WALK_STEP: Final = Block(_STEP)
+_WALK_STEP: Final = Block({**_STEP, "water": FLAG})
 _BODY_STEP: Final = Block({**_STEP, "velocity": POINT})
 
 STEP_OF: Final[Mapping[str, str]] = MappingProxyType(
@@ -56,7 +57,8 @@ STEP_OUTPUTS: Final[Mapping[str, Block]] = MappingProxyType(
 """What can be pinned of a tick.
 
 `outcome` is ``moved``, ``failed``, ``still`` or another word of a body walk. Position, cell, contact, plane,
-sliding normal and velocity are those after the tick; collisions and trace are those of the tick itself.
+water, sliding normal and velocity are those after the tick; collisions, objects touched and trace are those
+of the tick itself.
 """
 
 _OUTCOMES: Final[Mapping[Any, str]] = MappingProxyType({1: "moved", 0: "failed", "skip": "still"})
@@ -71,6 +73,7 @@ def start_of(query: Query) -> Fields:
     return {
         "position": pose["origin"] if pose else [0.0, 0.0, 0.0],
         "cell": pose["cell"] if pose else 0,
+        "water": 0,
         "contact": bits & _CONTACT,
         "contact_plane": body.get("contact_plane"),
         "contact_plane_cell": body.get("contact_plane_cell"),
@@ -90,10 +93,13 @@ def steps(op: str, start: Fields, ticks: Sequence[Fields]) -> Iterator[Fields]:
     ticks : sequence of Fields
         The answer's own.
     """
-    after = _after_body_tick if op == "body_walk" else _after_tick
     known = {"on_walkable": 0, **start}
     for tick in ticks:
-        known = after(known, tick, start["cell"])
+        if op == "body_walk":
+            known = _after_body_tick(known, tick)
+        else:
+            # A walk in cells gives another cell in every tick, one in a world only when it has changed.
+            known = _after_tick(known, tick, known["cell"] if op == "world_walk" else start["cell"])
         yield _shown(known, tick)
 
 
@@ -108,17 +114,22 @@ def _shown(known: Fields, tick: Fields) -> Fields:
         "frames_stationary_fall": tick.get("fsf", 0),
         "collided_with_environment": tick.get("env", 0),
         "kill_velocity": tick.get("kill", 0),
+        "objects": tick.get("objs", []),
         "trace": tick.get("t", ""),
     }
 
 
-def _after_tick(known: Fields, tick: Fields, start_cell: int) -> Fields:
-    """Take over a recorded move: only one that succeeds changes anything, and then everything."""
+def _after_tick(known: Fields, tick: Fields, cell: int) -> Fields:
+    """Take over a recorded move: only one that succeeds changes anything, and then everything.
+
+    `cell` is the one that a tick without a cell ends in.
+    """
     if tick["r"] != 1:
         return known
     return {
         "position": tick["pos"],
-        "cell": tick.get("cell", start_cell),
+        "cell": tick.get("cell", cell),
+        "water": tick.get("water", 0),
         "contact": int("cp" in tick),
         "on_walkable": tick.get("onw", 0),
         "contact_plane": tick.get("cp"),
@@ -127,7 +138,7 @@ def _after_tick(known: Fields, tick: Fields, start_cell: int) -> Fields:
     }
 
 
-def _after_body_tick(known: Fields, tick: Fields, _: int) -> Fields:
+def _after_body_tick(known: Fields, tick: Fields) -> Fields:
     """Take over a body's tick, which says what has changed; the transient state says what counts."""
     bits = tick["ts"]
     sliding = tick.get("sn", known["sliding_normal"])

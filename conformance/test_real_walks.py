@@ -1,8 +1,11 @@
-"""Walks across real cells, each on its own: a candidate and retail agree on every bit of every tick."""
+"""Walks in real cells, each on its own and through their portals: every bit of every tick agrees."""
 
 from __future__ import annotations
 
 import dataclasses
+import itertools
+import zlib
+from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any, Final
 
 import pytest
@@ -13,8 +16,9 @@ from conformance.report.text import render_differences
 from conformance.report.ticks import ticks_around
 from conformance.scenes.algebra import length, subtract
 from conformance.scenes.importers.cell_dump import load_folder
+from conformance.scenes.importers.cell_world import load_worlds
 from conformance.scenes.planes import unit_normal
-from conformance.scenes.poses import seeded_poses, transform_query
+from conformance.scenes.poses import moved_queries, seeded_poses, transform_query
 from conformance.scenes.rigid import Transform, move_point
 from conformance.step_outputs import start_of, steps
 from conformance.summary import PROPERTY
@@ -22,12 +26,13 @@ from conformance.vector_io import query_from_record
 from oracle.constants import FLOOR_Z
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Iterator
+    from collections.abc import Callable, Iterator, Mapping
     from pathlib import Path
 
     from conformance.candidates.base import Candidate
     from conformance.query import Fields, Query
     from conformance.scenes.model import Cell, Vec3
+    from conformance.scenes.world_model import World
 
 CELLS: Final = (0xA9B4014B, 0xA9B4014D, 0xA9B40141, 0xA9B40147, 0xA9B40148)
 """Two attics, a room, both parts of a cellar."""
@@ -40,10 +45,63 @@ STRIDE: Final = 0.1
 MOST_TICKS: Final = 40
 """Toward one target; a wall may be in the way."""
 QUANTUM: Final = 1.0 / 30.0
+LANDING: Final = 6
+"""Ticks without input at the beginning of a body's walk."""
 SPHERES: Final = [[0.0, 0.0, 0.475, 0.48], [0.0, 0.0, 1.35, 0.48]]
 """Those of a human, metres."""
 ABOVE: Final = 0.05
 """Metres above the floor at which a walk begins."""
+AT_REST: Final = 45
+"""Ticks after which friction has stopped a body at the end of its route, and a fall is over."""
+SPEED: Final = 3.0
+"""Of a body on a route, m/s; friction leaves it 2.715 m/s."""
+TICKS_A_METRE: Final = 11.05
+"""At that speed and thirty ticks a second."""
+GRAVITY_ONLY: Final = 0x408
+"""State of a body without edge slide: it walks over the edge of a hatch."""
+
+
+@dataclass(frozen=True, slots=True)
+class Route:
+    """A way through portals.
+
+    Attributes
+    ----------
+    start : Vec3
+        In the landblock's frame, metres.
+    way : tuple of (float, float)
+        Points to head for, one after the other.
+    cells : tuple of int
+        Low words of the cells that it leads through, the first one's included, in order.
+    outcome : str
+        Of the last tick: ``lost`` where the way leads into a cell that is not loaded.
+    fall : int or None
+        Index of the point at which the body falls down a hatch and comes to rest before it goes on.
+    """
+
+    start: Vec3
+    way: tuple[tuple[float, float], ...]
+    cells: tuple[int, ...]
+    outcome: str = "still"
+    fall: int | None = None
+
+
+ROUTES: Final[Mapping[str, Route]] = {
+    "room, doorway, hall, front door": Route(
+        (161.4, 8.4, 94.02), ((155.4, 8.4), (155.4, 15.6)), (0x172, 0x173, 0x171, 0x170), "lost"
+    ),
+    "over the edge of a hatch": Route((156.5, 8.4, 94.02), ((153.9, 8.4),), (0x171, 0x175, 0x174)),
+    "down to the cellar and its alcove": Route(
+        (138.5, 6.3, 94.02),
+        ((141.3, 6.3), (135.0, 6.3), (129.5, 5.5), (127.7, 5.5)),
+        (0x143, 0x146, 0x147, 0x148, 0x149),
+        fall=0,
+    ),
+    "attics": Route((134.0, 12.0, 97.02), ((139.5, 12.0), (131.0, 12.0)), (0x14B, 0x14D, 0x14B)),
+    "into a room that is not loaded": Route((139.0, 10.5, 94.02), ((134.0, 10.5),), (0x143, 0x144), "lost"),
+    "out of the side door": Route((139.0, 5.15, 94.02), ((134.0, 5.15),), (0x143, 0x145), "lost"),
+}
+"""Through the doorways and hatches of two buildings."""
 
 
 @pytest.mark.parametrize("op", ["walk", "body_walk"])
@@ -64,6 +122,56 @@ def test_walk_across_a_real_cell(
     for pose in seeded_poses(POSES, cell_id):
         _agreed(transform_query(query, pose), candidate, oracle)
     record_property(PROPERTY, {"random": 1 + POSES})
+
+
+@pytest.mark.parametrize("name", ROUTES)
+def test_walk_through_the_portals_of_real_cells(
+    name: str,
+    fixtures_dir: Path,
+    candidate: Candidate,
+    oracle: Candidate,
+    record_property: Callable[[str, object], None],
+) -> None:
+    """From cell to cell, in random poses too; as they stand the cells are those of the route."""
+    route = ROUTES[name]
+    query = _routed(name, route, load_worlds(fixtures_dir))
+    answers = _agreed(query, candidate, oracle)
+    ticks = list(steps(query.op, start_of(query), answers["ticks"]))
+    visited = [cell & 0xFFFF for cell, _ in itertools.groupby(tick["cell"] for tick in ticks)]
+    assert tuple(visited) == route.cells
+    assert ticks[-1]["outcome"] == route.outcome
+    for moved in moved_queries(query, POSES, zlib.crc32(name.encode())):
+        _agreed(moved, candidate, oracle)
+    record_property(PROPERTY, {"random": 1 + POSES})
+
+
+def _routed(name: str, route: Route, worlds: list[World]) -> Query:
+    """Make the walk of a body along a route."""
+    (world,) = [one for one in worlds if any(cell.id & 0xFFFF == route.cells[0] for cell in one.cells)]
+    (first,) = [cell.id for cell in world.cells if cell.id & 0xFFFF == route.cells[0]]
+    ticks: list[dict[str, Any]] = [{"q": QUANTUM}] * LANDING
+    x, y, _ = route.start
+    for index, (to_x, to_y) in enumerate(route.way):
+        distance = length((to_x - x, to_y - y, 0.0))
+        velocity = [(to_x - x) / distance * SPEED, (to_y - y) / distance * SPEED, 0.0]
+        ticks += [{"q": QUANTUM, "set_velocity": velocity}] * round(distance * TICKS_A_METRE)
+        if index in {route.fall, len(route.way) - 1}:
+            ticks += [{"q": QUANTUM}] * AT_REST
+        x, y = to_x, to_y
+    body = _body({"cell": first, "origin": list(route.start), "rotation": [1.0, 0.0, 0.0, 0.0]})
+    record = {"op": "body_walk", "world": world.to_record(), "body": body, "ticks": ticks}
+    geometries = {geometry.name: geometry for geometry in world.geometries()}
+    return query_from_record(record, geometries, label=name)
+
+
+def _body(start: dict[str, Any]) -> dict[str, Any]:
+    body = {"spheres": SPHERES, "step_up_height": 0.6, "step_down_height": 1.5, "position": start}
+    return body | {
+        "state": GRAVITY_ONLY,
+        "transient_state": 0x80,
+        "acceleration": [0.0, 0.0, -9.8],
+        "movement_manager": 1,
+    }
 
 
 def _agreed(query: Query, candidate: Candidate, oracle: Candidate) -> Fields:
@@ -99,7 +207,7 @@ def _walk(op: str, cell: Cell) -> Query:
     else:
         body = {"spheres": SPHERES, "step_up_height": 0.6, "step_down_height": 1.5, "position": start}
         body |= {"transient_state": 0x80, "acceleration": [0.0, 0.0, -9.8], "movement_manager": 1}
-        landing: list[dict[str, Any]] = [{"q": QUANTUM}] * 6
+        landing: list[dict[str, Any]] = [{"q": QUANTUM}] * LANDING
         driven = [{"q": QUANTUM, "set_velocity": [part / QUANTUM for part in move]} for move in moves]
         record |= {"body": body, "ticks": landing + driven}
     assert cell.geometry is not None

@@ -25,6 +25,7 @@ _NORMAL: Final = rf"n={_TRIPLE}"
 _PLANE: Final = rf"(?:{_NORMAL} D={_NUMBER}|none)"
 _COUNT: Final = r"\d+"
 _HEX: Final = r"0x[0-9A-Fa-f]+"
+_CELL: Final = rf"(?:{_HEX}|none)"
 
 _VALUES: Final = {
     "ContactPlane": _PLANE,
@@ -39,6 +40,7 @@ _VALUES: Final = {
     "SlidingNormal": rf"(?:{_NORMAL}|none)",
     "SlidingNormalValid": _COUNT,
     "State": _HEX,
+    "CurrCell": _CELL,
     "Call": r"\w+",
 }
 """How the values of each field are written."""

@@ -5,13 +5,14 @@ from __future__ import annotations
 import hashlib
 import json
 import math
+from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any, Final
 
 from conformance.floats import shortest32
 from conformance.inputs import is_float64_input
 from conformance.outputs import OUTPUTS
 from conformance.shapes import Block, Kind, Listing, Nullable, Scalar
-from conformance.vector_library import GEOMETRY_FILES, Library
+from conformance.vector_library import GEOMETRY_FILES, WORLD_FILE, Library
 
 if TYPE_CHECKING:
     from collections.abc import Iterable, Mapping
@@ -22,22 +23,22 @@ if TYPE_CHECKING:
     from conformance.shapes import Shape
 
 _DIGEST_DIGITS: Final = 8
-"""Hexadecimal digits of a geometry's digest in its name: enough for thousands of geometries."""
+"""Hexadecimal digits of a geometry's or a world's digest in its name: enough for thousands of them."""
 _SEPARATORS: Final = (",", ":")
 
 
 def write_vectors(path: Path, records: Iterable[tuple[str, Query, Fields]]) -> int:
-    """Write records and, beside them, the geometry they use.
+    """Write records and, beside them, the geometry and the worlds they use.
 
-    Geometry is named by what it holds (its own name and a digest), so that writing the same scene again
-    changes nothing and different scenes never share a name. Geometry that is there already stays.
+    Geometry and worlds are named by what they hold (their own name and a digest), so that writing the same
+    scene again changes nothing and different scenes never share a name. What is there already stays.
 
     Parameters
     ----------
     path : Path
-        The file to write; ``geometries.jsonl`` is written or added to in its folder.
+        The file to write; ``geometries.jsonl`` and ``worlds.jsonl`` are written or added to in its folder.
     records : iterable of (str, Query, Fields)
-        Id, query and retail's answer. Operations in a world cannot be written, as they name no geometry.
+        Id, query and retail's answer.
 
     Returns
     -------
@@ -47,28 +48,35 @@ def write_vectors(path: Path, records: Iterable[tuple[str, Query, Fields]]) -> i
     Raises
     ------
     VectorError
-        If the folder already has a geometry file that cannot be read.
+        If the folder already has a shared file that cannot be read.
     """
-    geometries: dict[str, dict[str, Any]] = {}
-    lines = [_record(record_id, query, fields, geometries) for record_id, query, fields in records]
+    shared = _Shared({}, {})
+    lines = [_record(record_id, query, fields, shared) for record_id, query, fields in records]
     path.parent.mkdir(parents=True, exist_ok=True)
     library = Library(path.parent)
-    new = [geometry for name, geometry in geometries.items() if name not in library.geometries]
+    new = [geometry for name, geometry in shared.geometries.items() if name not in library.geometries]
+    worlds = [world for name, world in shared.worlds.items() if name not in library.worlds]
     if library.errors:
         raise library.errors[0]
     _write_lines(path.parent / GEOMETRY_FILES[0], new, mode="a")
+    if worlds:
+        _write_lines(path.parent / WORLD_FILE, worlds, mode="a")
     _write_lines(path, lines, mode="w")
     return len(lines)
 
 
 def geometry_record(geometry: Geometry) -> dict[str, Any]:
     """Write a geometry under its content name: numbers short, the name ending in a digest of the rest."""
-    record = short_geometry(geometry)
-    base = record.pop("name")
-    content = json.dumps(record, separators=_SEPARATORS, sort_keys=True).encode("utf-8")
+    return _named(short_geometry(geometry))
+
+
+def _named(record: dict[str, Any]) -> dict[str, Any]:
+    """Return a record whose name ends in a digest of the rest."""
+    rest = {key: value for key, value in record.items() if key != "name"}
+    content = json.dumps(rest, separators=_SEPARATORS, sort_keys=True).encode("utf-8")
     digest = hashlib.sha256(content).hexdigest()[:_DIGEST_DIGITS]
-    name = base if base.endswith(f"-{digest}") else f"{base}-{digest}"
-    return {"name": name, **record}
+    base = record["name"]
+    return {**record, "name": base if base.endswith(f"-{digest}") else f"{base}-{digest}"}
 
 
 def short_geometry(geometry: Geometry) -> dict[str, Any]:
@@ -94,15 +102,25 @@ def short_fields(op: str, fields: Fields) -> Fields:
     return short
 
 
-def _record(
-    record_id: str, query: Query, fields: Fields, geometries: dict[str, dict[str, Any]]
-) -> dict[str, Any]:
+@dataclass(frozen=True, slots=True)
+class _Shared:
+    """The shared records that the records of a file name, by name."""
+
+    geometries: dict[str, dict[str, Any]]
+    worlds: dict[str, dict[str, Any]]
+
+
+def _record(record_id: str, query: Query, fields: Fields, shared: _Shared) -> dict[str, Any]:
     names = {}
     for name, geometry in query.geometries.items():
         written = geometry_record(geometry)
         names[name] = written["name"]
-        geometries[written["name"]] = written
+        shared.geometries[written["name"]] = written
     inputs = _renamed(short_inputs(query.inputs), names)
+    if "world" in inputs:
+        world = _named(inputs["world"])
+        shared.worlds[world["name"]] = world
+        inputs["world"] = world["name"]
     return {"id": record_id, "op": query.op, **inputs, "expect": short_fields(query.op, fields)}
 
 

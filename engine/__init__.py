@@ -19,50 +19,71 @@ A `Body` moves by itself, by its velocity, tick after tick:
 [0.0, 0.0, 0.7]
 """
 
-from engine.batch import find_collisions, find_collisions_many, resolve, resolve_many
+from engine.batch import (
+    find_collisions,
+    find_collisions_many,
+    find_object_collisions,
+    find_object_collisions_many,
+    resolve,
+    resolve_many,
+)
 from engine.body import Body, body_rows
+from engine.cells import Cell, Portal
 from engine.errors import (
+    CrowdedError,
     EngineError,
     GeometryError,
     InputError,
-    OutdoorsError,
     PoseError,
     QueryError,
     RecursionBoundError,
     WorldError,
 )
 from engine.geometry import Leaf, Node, Shape
+from engine.landscape import Building, BuildingPortal, LandBlock
+from engine.object_call import ObjectCall, Target
+from engine.objects import Obstacle, Part, Weenie
 from engine.pose import Pose
 from engine.query import CollisionCall, ContactPlane, Move, Mover, PathState, Seed
 from engine.step import set_local_velocity, set_velocity, step, step_many, update_many
-from engine.world import Cell, StaticObject, World
+from engine.world import World
 
 __all__ = [
     "Body",
+    "Building",
+    "BuildingPortal",
     "Cell",
     "CollisionCall",
     "ContactPlane",
+    "CrowdedError",
     "EngineError",
     "GeometryError",
     "InputError",
+    "LandBlock",
     "Leaf",
     "Move",
     "Mover",
     "Node",
-    "OutdoorsError",
+    "ObjectCall",
+    "Obstacle",
+    "Part",
     "PathState",
+    "Portal",
     "Pose",
     "PoseError",
     "QueryError",
     "RecursionBoundError",
     "Seed",
     "Shape",
-    "StaticObject",
+    "Target",
+    "Weenie",
     "World",
     "WorldError",
     "body_rows",
     "find_collisions",
     "find_collisions_many",
+    "find_object_collisions",
+    "find_object_collisions_many",
     "resolve",
     "resolve_many",
     "set_local_velocity",

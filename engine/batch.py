@@ -7,10 +7,14 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from engine import layout as at
-from engine.errors import OutdoorsError, QueryError, RecursionBoundError
+from engine.body_layout import MAX_RECORDS, STATUS_CROWDED
+from engine.errors import CrowdedError, QueryError, RecursionBoundError
 from engine.kernels.collisions import collide_many
+from engine.kernels.object_calls import meet_many
 from engine.kernels.resolving import resolve_many as resolve_rows
+from engine.object_call import ObjectCall, object_rows
 from engine.query import CollisionCall, Move, collision_rows, move_rows
+from engine.tracing import runnable
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Sequence
@@ -31,14 +35,12 @@ def resolve(world: World, move: Move) -> Any:
     -------
     numpy record of `engine.layout.RESULT_DTYPE`
         ``result`` is 1 if the mover got somewhere (``curr``), 0 if there was no movement. Cells are
-        given by their index in ``world.cell_ids``.
+        given by their index in ``world.cell_ids``; one of -1 says that the mover has left the world.
 
     Raises
     ------
     QueryError, PoseError
         If the move cannot be asked about.
-    OutdoorsError
-        If the mover leaves for the landscape.
 
     Notes
     -----
@@ -87,12 +89,42 @@ def find_collisions_many(world: World, calls: Sequence[CollisionCall] | Rows) ->
     return _run(collide_many, world, rows)
 
 
+def find_object_collisions(world: World, call: ObjectCall) -> Any:
+    """Test one mover against obstacles, with a given state of its path.
+
+    Returns
+    -------
+    numpy record of `engine.layout.RESULT_DTYPE`
+        ``result`` is a TransitionState (`engine.constants.STATE_NAMES`).
+
+    Raises
+    ------
+    QueryError, PoseError
+        If it cannot be asked about.
+
+    Notes
+    -----
+    retail: CPhysicsObj::FindObjCollisions 0x0050F050, documents 07 and 08
+    """
+    return find_object_collisions_many(world, [call])[0]
+
+
+def find_object_collisions_many(world: World, calls: Sequence[ObjectCall] | Rows) -> Rows:
+    """Make many calls of obstacles, each as if it were alone; results in the same order.
+
+    `calls` are ObjectCall objects, or rows made by `engine.object_call.object_rows`.
+    See `find_object_collisions`.
+    """
+    rows = calls if isinstance(calls, np.ndarray) else object_rows(world, calls)
+    return _run(meet_many, world, rows)
+
+
 def _run(kernel: Callable[..., None], world: World, rows: Rows) -> Rows:
     if rows.dtype != at.QUERY_DTYPE:
         raise QueryError("rows", "not of engine.layout.QUERY_DTYPE")
     queries = np.ascontiguousarray(rows)
     results = np.zeros(len(rows), dtype=at.RESULT_DTYPE)
-    kernel(
+    runnable(kernel)(
         world.floats,
         world.ints,
         world.new_row(),
@@ -113,9 +145,9 @@ def check_status(status: Any) -> None:
 
     Raises
     ------
-    OutdoorsError, RecursionBoundError
+    CrowdedError, RecursionBoundError
     """
     for index in np.flatnonzero(status != at.STATUS_OK):
-        if status[index] == at.STATUS_OUTDOORS:
-            raise OutdoorsError(f"query {index}: the mover came to the landscape, which is not in the world")
+        if status[index] == STATUS_CROWDED:
+            raise CrowdedError(f"body {index} has touched more than {MAX_RECORDS} objects within a second")
         raise RecursionBoundError(f"query {index}: status {int(status[index])}")

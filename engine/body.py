@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from engine import layout as at
-from engine.body_layout import body_dtype
+from engine.body_layout import BODY_DTYPE
 from engine.constants import ACTIVE_TS, DEFAULT_ELASTICITY, DEFAULT_FRICTION, DEFAULT_STATE
 from engine.errors import QueryError
 from engine.float32 import float32_array
@@ -68,6 +68,8 @@ class Body:
         It takes notice of the objects that it touches.
     has_parent : bool
         It is attached to another object.
+    id : int
+        Its object id; 0 for none. It never collides with an obstacle of that id.
     update_time : float
         Up to when it is simulated, seconds.
     """
@@ -93,6 +95,7 @@ class Body:
     colliding_with_environment: bool = False
     tracks_objects: bool = True
     has_parent: bool = False
+    id: int = 0
     update_time: float = 0.0
 
 
@@ -112,20 +115,20 @@ _EXACT = (
     "colliding_with_environment",
     "tracks_objects",
     "has_parent",
+    "id",
     "update_time",
 )
 
 
 def body_rows(world: World, bodies: Sequence[Body]) -> Rows:
-    """Return a record of `engine.body_layout.body_dtype` for each body.
+    """Return a record of `engine.body_layout.BODY_DTYPE` for each body.
 
     Raises
     ------
     QueryError, PoseError
         Naming the body and what is wrong with it.
     """
-    rows = np.zeros(len(bodies), dtype=body_dtype(world.num_objects))
-    rows["collision_table"][..., 0] = np.nan
+    rows = np.zeros(len(bodies), dtype=BODY_DTYPE)
     for index, body in enumerate(bodies):
         where = f"body {index}"
         row = rows[index]

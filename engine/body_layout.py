@@ -1,15 +1,12 @@
 """Where things lie in the row of a body: a CPhysicsObj that ticks (06, 1).
 
-Like a query's row it is float64 throughout, and kernels address it with the constants below. Behind it
-lies the body's collision table: for each object of the world when it was touched last, and whether it
-was ethereal then. Python reads the whole by name through `body_dtype`.
+Like a query's row it is float64 throughout, and kernels address it with the constants below. Python
+reads it by name through `BODY_DTYPE`.
 """
 
 from __future__ import annotations
 
 from typing import Final
-
-import numpy as np
 
 from engine.constants import frozen
 from engine.layout import MAX_SPHERES, PLANE_SIZE, POSITION_SIZE, SPHERE_SIZE, VECTOR_SIZE, Row
@@ -27,6 +24,7 @@ B_HAS_PARENT: Final = _row.field("has_parent")
 """Whether it is attached to another object, and so does not move by itself."""
 
 # --- what it is ------------------------------------------------------------------------------------
+B_ID: Final = _row.field("id")
 B_NUM_SPHERE: Final = _row.field("num_sphere")
 B_SPHERES: Final = _row.field("spheres", MAX_SPHERES, SPHERE_SIZE)
 """In object space, before `B_SCALE`."""
@@ -85,12 +83,21 @@ REPORT_SIZE: Final = frozen(_row.size - REPORT)
 B_WANTED: Final = _row.field("wanted", POSITION_SIZE)
 """Where the tick wanted to go: retail's local new_pos."""
 
+# --- which objects it has touched lately (collision_table) ------------------------------------------
+RECORD_SIZE: Final = frozen(3)
+"""A record: the object's index in the world, when it was touched last, 1 if it was ethereal then."""
+RECORD_TIME: Final = frozen(1)
+RECORD_ETHEREAL: Final = frozen(2)
+MAX_RECORDS: Final = frozen(256)
+"""How many objects a body can remember, all of them touched within the last second."""
+STATUS_CROWDED: Final = frozen(32)
+"""Status of a body that has touched more; a number that no status of `engine.layout` has."""
+B_NUM_RECORDS: Final = _row.field("num_records")
+B_RECORDS: Final = _row.field("records", MAX_RECORDS, RECORD_SIZE)
+"""The first `B_NUM_RECORDS` are in use, in any order."""
+
 BODY_SIZE: Final = frozen(_row.size)
 BODY_DTYPE: Final = _row.dtype()
-
-RECORD_SIZE: Final = frozen(2)
-"""An entry of the collision table: time of the last touch, NaN for none; 1 for an ethereal object."""
-RECORD_ETHEREAL: Final = frozen(1)
 
 OUTCOMES: Final = ("inactive", "nosphere", "still", "failed", "moved", "lost")
 INACTIVE: Final = frozen(0)
@@ -105,10 +112,3 @@ MOVED: Final = frozen(4)
 """It took over what the transition ended in."""
 LOST: Final = frozen(5)
 """It left the world."""
-
-
-def body_dtype(num_objects: int) -> np.dtype[np.void]:
-    """Return the type of a body's record in a world of `num_objects` objects."""
-    table = ("collision_table", np.float64, (num_objects, int(RECORD_SIZE)))
-    fields = [(name, BODY_DTYPE[name].base, BODY_DTYPE[name].shape) for name in BODY_DTYPE.names or ()]
-    return np.dtype([*fields, table])

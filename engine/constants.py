@@ -35,8 +35,10 @@ PLACEMENT_TRIES: Final = 20
 """Pushes of placement_insert before it gives up (PI-7)."""
 WALK_INTERP_FLOOR: Final = -0.5
 """How far beyond the whole step adjust_sphere_to_plane may undo (AS-4)."""
+LEAST_WALK_INTERP: Final = -0.1
+"""The same for standing on a sphere, a cylinder or terrain; a float64 (07, 0.2)."""
 BLOCK_STEP: Final = 24.0
-"""Metres of one unit of a landblock coordinate, an eighth of a block (01, 5.1)."""
+"""Edge of a land cell, and metres of one unit of a landblock coordinate (01, 5.1; 10, 1)."""
 FIRST_INDOOR: Final = 0x100
 """Smallest low word of an environment cell's id (09)."""
 
@@ -83,14 +85,51 @@ IS_VIEWER: Final = frozen(0x4)
 PATH_CLIPPED: Final = frozen(0x8)
 FREE_ROTATE: Final = frozen(0x10)
 PERFECT_CLIP: Final = frozen(0x40)
+IS_IMPENETRABLE: Final = frozen(0x80)
+IS_PLAYER: Final = frozen(0x100)
 EDGE_SLIDE: Final = frozen(0x200)
+IGNORE_CREATURES: Final = frozen(0x400)
+IS_PK: Final = frozen(0x800)
+IS_PKLITE: Final = frozen(0x1000)
 
 # PhysicsState bits of an obstacle (08, 1).
 STATIC: Final = frozen(0x1)
 ETHEREAL: Final = frozen(0x4)
 IGNORE_COLLISIONS: Final = frozen(0x10)
 MISSILE: Final = frozen(0x40)
+PARTICLE_EMITTER: Final = frozen(0x1000)
 HAS_PHYSICS_BSP: Final = frozen(0x10000)
+
+# What a single call of obstacles tests; the engine's own.
+TARGET_FIRST_SHAPE: Final = frozen(0)
+"""An object's first shape alone, whatever exempts the mover from the object."""
+TARGET_OBJECT: Final = frozen(1)
+"""One object."""
+TARGET_OBJECTS: Final = frozen(2)
+"""All objects of a cell."""
+TARGET_CELL: Final = frozen(3)
+"""A cell's environment, then its objects."""
+
+# What an obstacle's game object answers (08, 1).
+WEENIE_PRESENT: Final = frozen(0x1)
+WEENIE_CREATURE: Final = frozen(0x2)
+WEENIE_PLAYER: Final = frozen(0x4)
+WEENIE_PK: Final = frozen(0x8)
+WEENIE_PKLITE: Final = frozen(0x10)
+WEENIE_IMPENETRABLE: Final = frozen(0x20)
+
+# Water types of land cells and blocks, and how deep one sinks in (10, 6).
+NOT_WATER: Final = frozen(0)
+PARTIALLY_WATER: Final = frozen(1)
+ENTIRELY_WATER: Final = frozen(2)
+DEEP_WATER: Final = 0.8999999761581421
+"""In a land cell that is all water, float32 of 0.9; metres (10, 6.4)."""
+SHALLOW_WATER: Final = 0.44999998807907104
+"""Near a corner that is water, of a land cell with a shore, float32 of 0.45; metres (10, 6.5)."""
+WET_LAND: Final = 0.10000000149011612
+"""Near a corner that is land, of such a cell, float32 of 0.1; metres (10, 6.5)."""
+HALF_CELL: Final = 12.0
+"""Half the edge of a land cell, metres (10, 1)."""
 
 # BoundingType (01, 7).
 OUTSIDE: Final = frozen(0)

@@ -33,15 +33,15 @@ class PoseError(InputError):
 
 
 class WorldError(InputError):
-    """Cells, portals and objects that do not make a world."""
+    """Cells, landblocks, buildings and obstacles that do not make a world."""
 
 
 class QueryError(InputError):
     """A mover, a seed or a position that cannot be asked about."""
 
 
-class OutdoorsError(EngineError):
-    """The mover's cell became one of the landscape, which is not in the world."""
+class CrowdedError(EngineError):
+    """A body has touched more objects within a second than it can remember."""
 
 
 class RecursionBoundError(EngineError, RuntimeError):

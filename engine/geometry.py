@@ -97,6 +97,11 @@ class Shape:
     name : str, optional
         What errors and results call it.
 
+    Attributes
+    ----------
+    bounds : ndarray of float, shape (6,)
+        Least and greatest x, y, z of all vertices, metres; zeros without vertices.
+
     Raises
     ------
     GeometryError
@@ -114,6 +119,9 @@ class Shape:
     ) -> None:
         self.name: Final = name
         points = float32_array(vertices, (-1, 3), f"{name}, vertices", GeometryError)
+        self.bounds: Final[Array] = (
+            np.concatenate((points.min(axis=0), points.max(axis=0))) if len(points) else np.zeros(6)
+        )
         self.polygon_offsets, self.polygon_floats = _flatten_polygons(points, polygons, name)
         flat = _FlatTree(tree, len(polygons), name)
         self.node_floats: Final[Array] = flat.floats

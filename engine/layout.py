@@ -76,6 +76,12 @@ OI_ETHEREAL: Final = _row.field("ethereal")
 OI_STEP_DOWN: Final = _row.field("may_step_down")
 MOVER_GRAVITY: Final = _row.field("gravity")
 """The mover object's gravity bit, read by VT-10."""
+MOVER_ID: Final = _row.field("mover_id")
+"""The mover's own object id; an obstacle with that id is the mover itself (09, 3.2)."""
+MOVER_MISSILE: Final = _row.field("mover_missile")
+"""The mover object's missile bit (08, 2; 10, 7)."""
+TARGET_ID: Final = _row.field("target_id")
+"""Id of the object that a missile is meant for (08, 2)."""
 
 # --- SPHEREPATH (04, 2.3) --------------------------------------------------------------------------
 NUM_SPHERE: Final = _row.field("num_sphere")
@@ -132,30 +138,34 @@ COLLISION_INFO: Final = frozen(_row.size)
 LAST_KNOWN_VALID: Final = _row.field("last_known_contact_plane_valid")
 LAST_KNOWN_PLANE: Final = _row.field("last_known_contact_plane", PLANE_SIZE)
 LAST_KNOWN_IS_WATER: Final = _row.field("last_known_contact_plane_is_water")
+LAST_KNOWN_CELL_ID: Final = _row.field("last_known_contact_plane_cell_id")
 CONTACT_VALID: Final = _row.field("contact_plane_valid")
 CONTACT_PLANE: Final = _row.field("contact_plane", PLANE_SIZE)
-CONTACT_CELL_ID: Final = _row.field("contact_plane_cell_id")
-LAST_KNOWN_CELL_ID: Final = _row.field("last_known_contact_plane_cell_id")
 CONTACT_IS_WATER: Final = _row.field("contact_plane_is_water")
+CONTACT_CELL_ID: Final = _row.field("contact_plane_cell_id")
 SLIDING_VALID: Final = _row.field("sliding_normal_valid")
 SLIDING_NORMAL: Final = _row.field("sliding_normal", VECTOR_SIZE)
 COLLISION_NORMAL_VALID: Final = _row.field("collision_normal_valid")
 COLLISION_NORMAL: Final = _row.field("collision_normal", VECTOR_SIZE)
 NUM_COLLIDE_OBJECT: Final = _row.field("num_collide_object")
 LAST_COLLIDED_OBJECT: Final = _row.field("last_collided_object")
-"""Index of a static object in the world; `NO_OBJECT` is retail's null pointer."""
+"""Index of an object in the world; `NO_OBJECT` is retail's null pointer."""
 COLLIDED_WITH_ENVIRONMENT: Final = _row.field("collided_with_environment")
 FRAMES_STATIONARY_FALL: Final = _row.field("frames_stationary_fall")
 COLLISION_INFO_SIZE: Final = frozen(_row.size - COLLISION_INFO)
 
 # --- CELLARRAY (04, 2.5): its entries lie behind the row -------------------------------------------
 NUM_CELLS: Final = _row.field("num_cells")
+ADDED_OUTSIDE: Final = _row.field("added_outside")
+DO_NOT_LOAD_CELLS: Final = _row.field("do_not_load_cells")
 
 # --- the engine's own ------------------------------------------------------------------------------
 KILL_VELOCITY: Final = _row.field("kill_velocity")
 """How often OBJECTINFO::kill_velocity ran."""
 NODES_VISITED: Final = _row.field("nodes_visited")
 POLYGONS_TESTED: Final = _row.field("polygons_tested")
+CELLS_LISTED: Final = _row.field("cells_listed")
+OBJECTS_TESTED: Final = _row.field("objects_tested")
 STATUS: Final = _row.field("status")
 """`STATUS_OK`, or which bound of the engine was violated."""
 REQUESTED_NORMAL: Final = _row.field("requested_normal", 3)
@@ -189,6 +199,9 @@ Q_STEP_DOWN_HEIGHT: Final = _query.field("step_down_height")
 Q_ETHEREAL: Final = _query.field("ethereal")
 Q_MAY_STEP_DOWN: Final = _query.field("may_step_down")
 Q_GRAVITY: Final = _query.field("gravity")
+Q_MOVER_ID: Final = _query.field("mover_id")
+Q_MOVER_MISSILE: Final = _query.field("mover_missile")
+Q_TARGET_ID: Final = _query.field("target_id")
 Q_HAS_START: Final = _query.field("has_start")
 Q_START: Final = _query.field("start", POSE_SIZE)
 Q_END: Final = _query.field("end", POSE_SIZE)
@@ -200,6 +213,8 @@ Q_COLLISION_INFO: Final = _query.block(_row, COLLISION_INFO, COLLISION_INFO_SIZE
 
 # The rest is read by a single collision call only: what to test, and SPHEREPATH fields to set.
 Q_TARGET_CELL: Final = _query.field("target_cell")
+Q_TARGET_KIND: Final = _query.field("target_kind")
+"""What an object call tests: `engine.constants.TARGET_FIRST_SHAPE`, ..."""
 Q_TARGET_OBJECT: Final = _query.field("target_object")
 """Index of a static object, or `NO_OBJECT` to test the target cell's own tree."""
 Q_INSERT_TYPE: Final = _query.field("insert_type")
@@ -242,10 +257,14 @@ R_STEP_UP_NORMAL: Final = _result.field("step_up_normal", 3)
 R_NEG_POLY_HIT: Final = _result.field("neg_poly_hit")
 R_NEG_STEP_UP: Final = _result.field("neg_step_up")
 R_NEG_COLLISION_NORMAL: Final = _result.field("neg_collision_normal", 3)
+R_OBSTRUCTION_ETHEREAL: Final = _result.field("obstruction_ethereal")
+R_HITS_INTERIOR_CELL: Final = _result.field("hits_interior_cell")
 R_STATE: Final = _result.field("state")
 R_KILL_VELOCITY: Final = _result.field("kill_velocity")
 R_NODES_VISITED: Final = _result.field("nodes_visited")
 R_POLYGONS_TESTED: Final = _result.field("polygons_tested")
+R_CELLS_LISTED: Final = _result.field("cells_listed")
+R_OBJECTS_TESTED: Final = _result.field("objects_tested")
 R_STATUS: Final = _result.field("status")
 
 RESULT_SIZE: Final = frozen(_result.size)
@@ -258,13 +277,12 @@ NO_POLYGON: Final = frozen(0)
 STATUS_OK: Final = frozen(0)
 STATUS_RECURSION: Final = frozen(1)
 """An inner insert reached what retail only reaches from the outermost one (05, 10)."""
-STATUS_OUTDOORS: Final = frozen(2)
-"""The mover's cell id became one of the landscape, which is not in the world."""
 
 # --- the world's arrays ----------------------------------------------------------------------------
-# floats: node k at NODE_FLOATS * k (splitting plane, bounding sphere), then polygon, containment
-# plane, cell and object records. ints: the header below in the place of the first nodes, node k at
-# NODE_INTS * k, then lists. A leaf keeps no plane; a polygon is named by the offset of its record.
+# floats: node k at NODE_FLOATS * k (splitting plane, bounding sphere), then polygon, plane, cell, part,
+# object and shape records. ints: the header below in the place of the first nodes, node k at
+# NODE_INTS * k, then records and lists. A leaf keeps no plane; a polygon is named by the offset of its
+# record.
 NODE_FLOATS: Final = frozen(8)
 NODE_SPHERE: Final = frozen(4)
 NODE_INTS: Final = frozen(4)
@@ -278,8 +296,6 @@ KIND_LEAF: Final = frozen(1)
 KIND_SOLID_LEAF: Final = frozen(2)
 NOT_SOLID: Final = frozen(0)
 NO_TREE: Final = frozen(0)
-FIRST_NODE: Final = frozen(2)
-"""Nodes 0 and 1 do not exist: their integers are the header, and 0 says `no tree`."""
 
 POLYGON_COUNT: Final = frozen(4)
 POLYGON_ID: Final = frozen(5)
@@ -287,32 +303,116 @@ POLYGON_SHAPE: Final = frozen(6)
 POLYGON_VERTICES: Final = frozen(8)
 """A polygon record: plane, number of vertices, its id, its shape's index, pad, vertices x y z."""
 
-WORLD_CELLS: Final = frozen(0)
-WORLD_CELL_FLOATS: Final = frozen(1)
-WORLD_CELL_INTS: Final = frozen(2)
-WORLD_OBJECT_FLOATS: Final = frozen(3)
-WORLD_OBJECT_INTS: Final = frozen(4)
-WORLD_STACK: Final = frozen(5)
-WORLD_CELL_LIST: Final = frozen(6)
-WORLD_ROW: Final = frozen(7)
-"""Header: number of cells, where the records begin, where stack and cell list begin in a row, and
-how long a row is without its trace; the list of touched objects lies between cell list and trace."""
+_header = Row()
+
+WORLD_CELLS: Final = _header.field("num_environment_cells")
+"""Cells below this number are environment cells, the others land cells."""
+WORLD_CELL_FLOATS: Final = _header.field("cell_floats")
+WORLD_CELL_INTS: Final = _header.field("cell_ints")
+WORLD_OBJECT_FLOATS: Final = _header.field("object_floats")
+WORLD_OBJECT_INTS: Final = _header.field("object_ints")
+WORLD_PART_FLOATS: Final = _header.field("part_floats")
+WORLD_PART_INTS: Final = _header.field("part_ints")
+WORLD_BUILDINGS: Final = _header.field("building_ints")
+WORLD_IDS: Final = _header.field("ids")
+"""Where the table from cell ids to cells begins (`engine.kernels.cell_ids`)."""
+WORLD_IDS_MASK: Final = _header.field("ids_mask")
+"""Number of entries of that table, a power of two, less one."""
+WORLD_STACK: Final = _header.field("stack")
+"""Where in a row the stack of a traversal begins, and then the cell list, the touched objects, the trace."""
+WORLD_CELL_LIST: Final = _header.field("cell_list")
+WORLD_TOUCHED: Final = _header.field("touched")
+WORLD_ROW: Final = _header.field("row")
+"""How long a row is without its trace."""
+
+FIRST_NODE: Final = frozen(math.ceil(_header.size / NODE_INTS))
+"""The nodes before it do not exist: their integers are the header, and 0 says `no tree`."""
 
 CELL_FLOATS: Final = POSITION_SIZE + 1
 CELL_ID: Final = POSITION_SIZE
-CELL_INTS: Final = frozen(7)
-CELL_TREE: Final = frozen(0)
-CELL_PLANES: Final = frozen(1)
-CELL_PLANE_COUNT: Final = frozen(2)
-CELL_PORTALS: Final = frozen(3)
-CELL_PORTAL_COUNT: Final = frozen(4)
-CELL_OBJECTS: Final = frozen(5)
-CELL_OBJECT_COUNT: Final = frozen(6)
+CELL_INTS: Final = frozen(9)
+CELL_OBJECTS: Final = frozen(0)
+"""Where the list of the cell's objects begins, as indices; those with a parent are not in it."""
+CELL_OBJECT_COUNT: Final = frozen(1)
+# An environment cell:
+CELL_TREE: Final = frozen(2)
+CELL_PLANES: Final = frozen(3)
+CELL_PLANE_COUNT: Final = frozen(4)
+CELL_PORTALS: Final = frozen(5)
+CELL_PORTAL_COUNT: Final = frozen(6)
+CELL_STAB: Final = frozen(7)
+"""Where the list of cell ids begins that may be visible from the cell."""
+CELL_STAB_COUNT: Final = frozen(8)
+# A land cell:
+LAND_TERRAIN: Final = frozen(2)
+"""Offset of the record of its first triangle; the second one's follows."""
+LAND_BUILDING: Final = frozen(3)
+LAND_WATER: Final = frozen(4)
+"""Its water type: `engine.constants.NOT_WATER`, ..."""
+LAND_BLOCK_WATER: Final = frozen(5)
+"""The water type of its whole block."""
+LAND_WET_CORNERS: Final = frozen(6)
+"""Bits: 1 south-west, 2 north-west, 4 south-east, 8 north-east corner is water."""
+
 NO_PLANES: Final = frozen(-1)
 """Containment plane count of a cell that contains every point."""
+NO_PORTALS: Final = frozen(-1)
+"""Portal count of a cell without a portal array, which contains no point (09, 4.1)."""
+NO_BUILDING: Final = frozen(-1)
+
+TERRAIN_POLYGON: Final = POLYGON_VERTICES + 9
+"""Size of a triangle's record."""
+LAND_CELLS: Final = frozen(64)
+"""Land cells of a block; cell 8 * i + j lies in column i from the west, row j from the south."""
+
+PORTAL_INTS: Final = frozen(3)
+PORTAL_CELL: Final = frozen(0)
+"""Index of the cell behind a portal; minus its id if it is not in the world; or `EXTERIOR`."""
+PORTAL_SIDE: Final = frozen(1)
+"""The cell's interior is on the positive (0) or negative (1) side of the portal's plane."""
+PORTAL_PLANE: Final = frozen(2)
+"""Offset of the plane, in cell space."""
+EXTERIOR: Final = frozen(-0xFFFF_FFFF)
+"""Retail's id of what is behind a door (09, 2.1)."""
+
+PART_FLOATS: Final = POSITION_SIZE + 1
+PART_SCALE: Final = POSITION_SIZE
+PART_INTS: Final = frozen(1)
+PART_TREE: Final = frozen(0)
+
+BUILDING_INTS: Final = frozen(3)
+BUILDING_PART: Final = frozen(0)
+"""Index of its part 0, or `NO_PART`."""
+BUILDING_PORTALS: Final = frozen(1)
+BUILDING_PORTAL_COUNT: Final = frozen(2)
+NO_PART: Final = frozen(-1)
+
+BUILDING_PORTAL_INTS: Final = frozen(2)
+BUILDING_PORTAL_CELL: Final = frozen(0)
+"""As `PORTAL_CELL`; never `EXTERIOR`."""
+BUILDING_PORTAL_OTHER: Final = frozen(1)
+"""Index of the portal in the cell behind it, negative for none."""
 
 OBJECT_FLOATS: Final = POSITION_SIZE + 1
 OBJECT_SCALE: Final = POSITION_SIZE
-OBJECT_INTS: Final = frozen(2)
-OBJECT_TREE: Final = frozen(0)
+OBJECT_INTS: Final = frozen(6)
+OBJECT_ID: Final = frozen(0)
+"""0 if it has none."""
 OBJECT_STATE: Final = frozen(1)
+"""PhysicsState bits."""
+OBJECT_WEENIE: Final = frozen(2)
+"""Bits of `engine.constants.WEENIE_PRESENT`, ..."""
+OBJECT_FAMILY: Final = frozen(3)
+"""Which of its shapes are tested: `FAMILY_NONE`, ..."""
+OBJECT_FIRST: Final = frozen(4)
+"""Index of the first part, or offset of the first record of the other families."""
+OBJECT_COUNT: Final = frozen(5)
+
+FAMILY_NONE: Final = frozen(0)
+FAMILY_PARTS: Final = frozen(1)
+FAMILY_CYLSPHERES: Final = frozen(2)
+FAMILY_SPHERES: Final = frozen(3)
+
+CYLSPHERE_SIZE: Final = frozen(5)
+"""A cylsphere record: low point x y z, radius, height, in object space, unscaled."""
+CYLSPHERE_HEIGHT: Final = frozen(4)

@@ -67,3 +67,40 @@ def position_row(pose: Pose, where: str) -> Array:
     position[at.ORIGIN :] = row[5:]
     frame_cache(position, 0)
     return position
+
+
+def position_rows(poses: Sequence[Pose], where: Sequence[str]) -> Array:
+    """Return `position_row` of many poses: (n, `engine.layout.POSITION_SIZE`) numbers.
+
+    They are checked all at once; if anything is wrong, one by one, to say what and where.
+    """
+    rows = np.zeros((len(poses), at.POSITION_SIZE), dtype=np.float64)
+    try:
+        rows[:, 0] = [pose.cell for pose in poses]
+        rows[:, at.QUATERNION : at.QUATERNION + at.QUATERNION_SIZE] = _stored([p.rotation for p in poses], 4)
+        rows[:, at.ORIGIN :] = _stored([p.origin for p in poses], 3)
+        valid = _all_valid(rows)
+    except (TypeError, ValueError):
+        valid = False
+    if not valid:
+        for pose, name in zip(poses, where, strict=True):
+            pose_row(pose, name)
+    numbers = rows.ravel()
+    for index in range(len(poses)):
+        frame_cache(numbers, index * int(at.POSITION_SIZE))
+    return rows
+
+
+def _stored(vectors: Sequence[Sequence[float]], size: int) -> Array:
+    """Return vectors rounded to float32; infinite where they are too large for it."""
+    values = np.array(vectors, dtype=np.float64).reshape(len(vectors), size)
+    with np.errstate(over="ignore"):
+        return values.astype(np.float32).astype(np.float64)
+
+
+def _all_valid(rows: Array) -> bool:
+    """Say whether `pose_row` would accept all of these."""
+    w, x, y, z = rows[:, at.QUATERNION : at.QUATERNION + at.QUATERNION_SIZE].T
+    length = (((z * z + y * y) + x * x) + w * w).astype(np.float32).astype(np.float64)
+    ids = (rows[:, 0] >= 0) & (rows[:, 0] <= 0xFFFF_FFFF)
+    return bool(ids.all() and np.isfinite(rows).all() and (np.abs(length - 1.0) <= EPS5).all())

@@ -35,7 +35,8 @@ class Mover:
         Multiplies the spheres.
     state : int
         ObjectInfo bits: 1 contact, 2 on walkable, 4 viewer, 8 path clipped, 0x10 free rotate,
-        0x40 perfect clip, 0x200 edge slide.
+        0x40 perfect clip, 0x80 impenetrable, 0x100 player, 0x200 edge slide, 0x400 ignores creatures,
+        0x800 and 0x1000 player killers.
     step_up_height, step_down_height : float
         Metres, as used.
     ethereal : bool
@@ -44,6 +45,12 @@ class Mover:
         Looks for ground; a missile does not.
     gravity : bool
         Falls; then standing still in the air is counted.
+    id : int
+        Its object id; 0 for none. It never collides with an obstacle of that id.
+    missile : bool
+        A missile: ethereal game objects, and creatures that are not its target, are not in its way.
+    target_id : int
+        Id of the object that a missile is meant for; 0 for none.
     """
 
     spheres: Sequence[Sequence[float]]
@@ -54,6 +61,9 @@ class Mover:
     ethereal: bool = False
     may_step_down: bool = True
     gravity: bool = True
+    id: int = 0
+    missile: bool = False
+    target_id: int = 0
 
 
 @dataclass(frozen=True, slots=True)
@@ -159,7 +169,7 @@ def move_rows(world: World, moves: Sequence[Move]) -> Rows:
     """Return a row for each move; raises `QueryError` or `PoseError` naming the move."""
     rows = np.zeros(len(moves), dtype=at.QUERY_DTYPE)
     for index, move in enumerate(moves):
-        _fill_move(rows[index], world, move, f"move {index}")
+        fill_move(rows[index], world, move, f"move {index}")
     return rows
 
 
@@ -171,11 +181,10 @@ def collision_rows(world: World, calls: Sequence[CollisionCall]) -> Rows:
         row = rows[index]
         if call.move.start is None:
             raise QueryError(f"{where}, start", "a collision call comes from somewhere")
-        _fill_move(row, world, call.move, where)
+        fill_move(row, world, call.move, where)
         row["target_cell"] = row["begin_cell"]
         row["target_object"] = _object(world, call, where)
-        for name in (f.name for f in fields(PathState)):
-            row[name] = _number(getattr(call.path, name), f"{where}, {name}")
+        fill_path(row, call.path, where)
     return rows
 
 
@@ -185,13 +194,23 @@ def _object(world: World, call: CollisionCall, where: str) -> int:
         if world.tree_of(cell) == at.NO_TREE:
             raise QueryError(f"{where}, cell", "it has no tree to collide with")
         return at.NO_OBJECT
-    first, count = world.objects_of(cell)
-    if not 0 <= call.object_index < count:
-        raise QueryError(f"{where}, object", f"{call.object_index} does not exist ({count} objects)")
-    return first + call.object_index
+    things = world.objects_of(cell)
+    if not 0 <= call.object_index < len(things):
+        raise QueryError(f"{where}, object", f"{call.object_index} does not exist ({len(things)} objects)")
+    thing = things[call.object_index]
+    if not world.has_parts(thing):
+        raise QueryError(f"{where}, object", f"{call.object_index} has no part with a tree to collide with")
+    return thing
 
 
-def _fill_move(row: Any, world: World, move: Move, where: str) -> None:
+def fill_path(row: Any, path: PathState, where: str) -> None:
+    """Write a path's state into a row; raises `QueryError` naming the field."""
+    for name in (f.name for f in fields(PathState)):
+        row[name] = _number(getattr(path, name), f"{where}, {name}")
+
+
+def fill_move(row: Any, world: World, move: Move, where: str) -> None:
+    """Write a move into a row; raises `QueryError` or `PoseError` naming what is wrong."""
     _fill_mover(row, move.mover, f"{where}, mover")
     _fill_seed(row, move.seed, f"{where}, seed")
     row["has_start"] = move.start is not None
@@ -220,6 +239,9 @@ def _fill_mover(row: Any, mover: Mover, where: str) -> None:
     row["ethereal"] = mover.ethereal
     row["may_step_down"] = mover.may_step_down
     row["gravity"] = mover.gravity
+    row["mover_id"] = _object_id(mover.id, f"{where}, id")
+    row["mover_missile"] = mover.missile
+    row["target_id"] = _object_id(mover.target_id, f"{where}, target id")
 
 
 def _fill_seed(row: Any, seed: Seed, where: str) -> None:
@@ -236,6 +258,12 @@ def _fill_seed(row: Any, seed: Seed, where: str) -> None:
             seed.sliding_normal, (at.VECTOR_SIZE,), f"{where}, sliding normal", QueryError
         )
     row["frames_stationary_fall"] = seed.frames_stationary_fall
+
+
+def _object_id(value: int, where: str) -> int:
+    if not 0 <= value <= 0xFFFF_FFFF:
+        raise QueryError(where, f"{value} is not a 32-bit number")
+    return value
 
 
 def _number(value: float, where: str) -> float:

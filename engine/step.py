@@ -9,12 +9,13 @@ import numpy as np
 
 from engine.batch import check_status
 from engine.body import Body, body_rows, rows_as_numbers
-from engine.body_layout import BODY_DTYPE, body_dtype
+from engine.body_layout import BODY_DTYPE
 from engine.constants import CHECK_ETHEREAL_TS
 from engine.errors import QueryError
 from engine.float32 import float32_array
 from engine.kernels import tick, tick_gates, tick_velocity
 from engine.layout import VECTOR_SIZE
+from engine.tracing import runnable
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -39,7 +40,7 @@ def step(world: World, body: Any, dt: float) -> Any:
 
     Returns
     -------
-    numpy record of `engine.body_layout.body_dtype`
+    numpy record of `engine.body_layout.BODY_DTYPE`
         The body after the tick: where it is (``origin``, ``rotation``, ``cell_id``), how it moves
         (``velocity``, ``transient_state``, ``contact_plane``), and what the tick did (``outcome``, an
         index in `engine.body_layout.OUTCOMES`).
@@ -48,8 +49,6 @@ def step(world: World, body: Any, dt: float) -> Any:
     ------
     QueryError, PoseError
         If the body or the time cannot be simulated.
-    OutdoorsError
-        If the body leaves for the landscape.
 
     Notes
     -----
@@ -58,8 +57,8 @@ def step(world: World, body: Any, dt: float) -> Any:
     if isinstance(body, Body):
         rows = body_rows(world, [body])
     else:
-        rows = np.empty(1, dtype=body_dtype(world.num_objects))
-        _check_type(world, body.dtype)
+        rows = np.empty(1, dtype=BODY_DTYPE)
+        _check_type(body.dtype)
         rows[0] = body
     return step_many(world, rows, dt, 1)[0]
 
@@ -73,8 +72,8 @@ def step_many(world: World, rows: Rows, dt: float, ticks: int) -> Rows:
     quantum = float(float32_array([dt], (1,), "dt", QueryError)[0])
     if not quantum > 0.0:
         raise QueryError("dt", f"{dt} seconds is not greater than 0")
-    numbers = _ready(world, rows)
-    tick.step_many(world.floats, world.ints, world.new_row(), numbers, quantum, ticks)
+    numbers = _ready(rows)
+    runnable(tick.step_many)(world.floats, world.ints, world.new_row(), numbers, quantum, ticks)
     check_status(rows["status"])
     return rows
 
@@ -88,7 +87,7 @@ def update_many(world: World, rows: Rows, now: float) -> Rows:
     Parameters
     ----------
     world : World
-    rows : records of `engine.body_layout.body_dtype`
+    rows : records of `engine.body_layout.BODY_DTYPE`
     now : float
         Seconds, on the clock of ``update_time``; not rounded to float32.
 
@@ -98,16 +97,17 @@ def update_many(world: World, rows: Rows, now: float) -> Rows:
     """
     if not math.isfinite(now):
         raise QueryError("now", f"{now} is not a time")
-    numbers = _ready(world, rows)
+    numbers = _ready(rows)
     quanta, times = np.zeros((2, int(tick_gates.MAX_TICKS)), dtype=np.float64)
-    tick_gates.update_many(world.floats, world.ints, world.new_row(), numbers, float(now), quanta, times)
+    update = runnable(tick_gates.update_many)
+    update(world.floats, world.ints, world.new_row(), numbers, float(now), quanta, times)
     check_status(rows["status"])
     return rows
 
 
-def _ready(world: World, rows: Rows) -> Array:
-    """Return rows as kernels see them, if they can tick in this world."""
-    _check_type(world, rows.dtype)
+def _ready(rows: Rows) -> Array:
+    """Return rows as kernels see them, if they can tick."""
+    _check_type(rows.dtype)
     if not rows.flags.c_contiguous:
         raise QueryError("rows", "not contiguous")
     ethereal = rows["transient_state"].astype(np.int64) & CHECK_ETHEREAL_TS
@@ -123,7 +123,7 @@ def set_velocity(rows: Rows, velocities: npt.ArrayLike) -> None:
 
     Parameters
     ----------
-    rows : records of `engine.body_layout.body_dtype`
+    rows : records of `engine.body_layout.BODY_DTYPE`
         They are changed.
     velocities : array_like, shape (len(rows), 3)
 
@@ -150,7 +150,6 @@ def _give(kernel: Callable[..., None], rows: Rows, velocities: npt.ArrayLike) ->
         kernel(numbers, float(x), float(y), float(z))
 
 
-def _check_type(world: World, dtype: np.dtype[Any]) -> None:
-    if dtype != body_dtype(world.num_objects):
-        known = set(BODY_DTYPE.names or ()) <= set(dtype.names or ())
-        raise QueryError("rows", "bodies of another world" if known else "not of engine.body_layout")
+def _check_type(dtype: np.dtype[Any]) -> None:
+    if dtype != BODY_DTYPE:
+        raise QueryError("rows", "not of engine.body_layout.BODY_DTYPE")

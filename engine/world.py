@@ -1,73 +1,30 @@
-"""World: cells and the static objects in them, compiled once into flat arrays."""
+"""World: cells, landblocks, buildings and obstacles, compiled once into flat arrays."""
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from typing import TYPE_CHECKING, Final
 
 import numpy as np
 
 from engine import layout as at
-from engine.constants import FIRST_INDOOR, HAS_PHYSICS_BSP, STATIC
+from engine.compiling.cells import CellNumbers, ObjectLists, write_buildings, write_cells
+from engine.compiling.ids import id_table
+from engine.compiling.objects import Parts, write_objects
+from engine.compiling.storage import Storage
 from engine.errors import WorldError
-from engine.float32 import float32_array
-from engine.pose import position_row
+from engine.registration import register
 
 if TYPE_CHECKING:
-    from collections.abc import Iterator, Sequence
+    from collections.abc import Iterator, Mapping, Sequence
 
+    from engine.cells import Cell
     from engine.geometry import Shape
     from engine.kernels.types import Array, Ints
-    from engine.pose import Pose
+    from engine.landscape import Building, LandBlock
+    from engine.objects import Obstacle
 
-
-@dataclass(frozen=True, slots=True, eq=False)
-class StaticObject:
-    """An object with one BSP-shaped part, that does not move by itself.
-
-    Attributes
-    ----------
-    shape : Shape
-        The part's geometry, unscaled.
-    pose : Pose
-        Of the part.
-    scale : float
-        Uniform, greater than 0.
-    state : int
-        PhysicsState bits: 1 static, 4 ethereal, 0x10 ignores collisions, 0x40 missile, 0x10000 has a
-        physics BSP.
-    """
-
-    shape: Shape
-    pose: Pose
-    scale: float = 1.0
-    state: int = STATIC | HAS_PHYSICS_BSP
-
-
-@dataclass(frozen=True, slots=True, eq=False)
-class Cell:
-    """An environment cell.
-
-    Attributes
-    ----------
-    id : int
-        Cell id; the low 16 bits of an indoor cell are at least 0x100.
-    pose : Pose
-        Where the cell's frame is.
-    shape : Shape or None
-        Its collision geometry and containment planes; None collides with nothing and contains every
-        point.
-    objects : sequence of StaticObject
-        In the order in which they are tested.
-    portals : sequence of int
-        Ids of the neighbouring cells, in the order in which they are looked at.
-    """
-
-    id: int
-    pose: Pose
-    shape: Shape | None
-    objects: Sequence[StaticObject] = ()
-    portals: Sequence[int] = ()
+_MAX_OUTSIDE: Final = 9 * 10
+"""Most land cells that are listed at once: nine about each of the ten balls of an object (09, 5.4)."""
 
 
 class World:
@@ -76,12 +33,24 @@ class World:
     Parameters
     ----------
     cells : sequence of Cell
-        At least one, with different ids.
+        Environment cells with different ids.
+    landblocks : sequence of LandBlock
+        With different ids; together with `cells` at least one.
+    buildings : sequence of Building
+    shadows : mapping of int to sequences of Obstacle, optional
+        The objects in a cell, environment or land, by its id; they follow those of `Cell.objects`. An
+        obstacle that reaches into several cells is listed in each.
+    objects : sequence of Obstacle, optional
+        What is not listed yet, in the order in which it enters the world: it is registered in the cells
+        that it reaches, as retail does (`engine.registration`), after all that is listed.
 
     Attributes
     ----------
     cell_ids : tuple of int
-        A cell's index here is its index in the engine.
+        A cell's index here is its index in the engine: environment cells as given, then the 64 land
+        cells of each block.
+    objects : tuple of Obstacle
+        Each once, in order of first mention; its index here is its index in the engine.
     shapes : tuple of Shape
         Every geometry once, in order of first use.
     floats, ints : ndarray
@@ -90,170 +59,137 @@ class World:
     Raises
     ------
     WorldError, PoseError
-        Naming the cell or object, and what is wrong with it.
+        Naming the cell, block, building or object, and what is wrong with it.
     """
 
-    def __init__(self, cells: Sequence[Cell]) -> None:
-        self.cell_ids: Final = tuple(cell.id for cell in cells)
-        _check_ids(self.cell_ids)
-        self.shapes: Final = tuple(_unique_shapes(cells))
-        self.num_objects: Final = sum(len(cell.objects) for cell in cells)
-        compiled = _Compiler(cells, self.shapes)
-        self.floats: Final = compiled.floats
-        self.ints: Final = compiled.ints
-        self._polygons: Final = compiled.polygons
-        self._index: Final = {cell_id: i for i, cell_id in enumerate(self.cell_ids)}
+    def __init__(
+        self,
+        cells: Sequence[Cell] = (),
+        landblocks: Sequence[LandBlock] = (),
+        buildings: Sequence[Building] = (),
+        shadows: Mapping[int, Sequence[Obstacle]] | None = None,
+        objects: Sequence[Obstacle] = (),
+    ) -> None:
+        numbers = CellNumbers(cells, landblocks)
+        found = register(World(cells, landblocks, buildings), objects) if objects else {}
+        lists = ObjectLists(_object_lists(numbers, cells, shadows or {}, found))
+        self.cell_ids: Final = numbers.ids
+        self.objects: Final = tuple(lists.obstacles)
+        self.shapes: Final = tuple(_unique_shapes(cells, buildings, lists.obstacles))
+        self._numbers: Final = numbers
+        storage, parts = Storage(self.shapes), Parts()
+        header, houses = write_buildings(storage, parts, numbers, buildings)
+        header |= write_objects(storage, parts, lists.obstacles, lists.where)
+        header |= parts.write(storage)
+        header |= write_cells(storage, numbers, lists.write(storage), cells, landblocks, houses)
+        header |= _write_ids(storage, numbers.keys())
+        header |= self._rows(len(cells) + len(numbers.unloaded))
+        self.floats, self.ints = storage.finish(header)
+        self._polygons: Final = storage.polygons
+
+    @property
+    def num_objects(self) -> int:
+        """Number of obstacles."""
+        return len(self.objects)
 
     def cell_index(self, cell_id: int) -> int:
         """Return a cell's index, or `NO_CELL` (-1) for the id of none."""
-        return self._index.get(cell_id, at.NO_CELL)
+        return self._numbers.index(cell_id)
 
     def tree_of(self, cell: int) -> int:
-        """Return the root node of a cell's tree, by the cell's index; `NO_TREE` (0) if it has none."""
-        return int(self.ints[self.ints[at.WORLD_CELL_INTS] + at.CELL_INTS * cell + at.CELL_TREE])
+        """Return the root node of an environment cell's tree; `NO_TREE` (0) if it has none."""
+        if cell >= self.ints[at.WORLD_CELLS]:
+            return int(at.NO_TREE)
+        return int(self._ints_of(cell)[at.CELL_TREE])
 
-    def objects_of(self, cell: int) -> tuple[int, int]:
-        """Return the index of a cell's first object, and how many it has."""
-        ints = self.ints[self.ints[at.WORLD_CELL_INTS] + at.CELL_INTS * cell :]
-        return int(ints[at.CELL_OBJECTS]), int(ints[at.CELL_OBJECT_COUNT])
+    def objects_of(self, cell: int) -> tuple[int, ...]:
+        """Return the indices of the obstacles that are tested in a cell, in order."""
+        first, count = self._ints_of(cell)[at.CELL_OBJECTS : at.CELL_OBJECT_COUNT + 1]
+        return tuple(int(thing) for thing in self.ints[first : first + count])
+
+    def has_parts(self, thing: int) -> bool:
+        """Say whether an obstacle, by its index, is collided with by its parts, and has any."""
+        ints = self.ints[self.ints[at.WORLD_OBJECT_INTS] + at.OBJECT_INTS * thing :]
+        return bool(ints[at.OBJECT_FAMILY] == at.FAMILY_PARTS and ints[at.OBJECT_COUNT] > 0)
+
+    def shape_count(self, thing: int) -> int:
+        """Return how many shapes an obstacle, by its index, is collided with by."""
+        ints = self.ints[self.ints[at.WORLD_OBJECT_INTS] + at.OBJECT_INTS * thing :]
+        return int(ints[at.OBJECT_COUNT])
 
     def polygon(self, shape: int, polygon: int) -> int:
         """Return where the record of a shape's polygon begins in `floats`."""
         return self._polygons[shape] + int(self.shapes[shape].polygon_offsets[polygon])
 
     def new_row(self, trace_capacity: int = 0) -> Array:
-        """Return a row of state for queries in this world, with room for a trace."""
-        row = np.zeros(int(self.ints[at.WORLD_ROW]) + trace_capacity, dtype=np.float64)
+        """Return a row of state for queries in this world, with room for a trace.
+
+        The lists behind the state are not cleared: each has a count, and nothing beyond it is read.
+        """
+        row = np.empty(int(self.ints[at.WORLD_ROW]) + trace_capacity, dtype=np.float64)
+        row[: at.STATE_SIZE] = 0.0
         row[at.TRACE_CAPACITY] = trace_capacity
         return row
+
+    def touched(self, row: Array) -> list[int]:
+        """Return the indices of the obstacles that a query's row says were touched, in order."""
+        first = int(self.ints[at.WORLD_TOUCHED])
+        return [int(thing) for thing in row[first : first + int(row[at.NUM_COLLIDE_OBJECT])]]
+
+    def _ints_of(self, cell: int) -> Ints:
+        return self.ints[self.ints[at.WORLD_CELL_INTS] + at.CELL_INTS * cell :]
+
+    def _rows(self, num_listed: int) -> dict[int, int]:
+        """Say where in a row the stack and the lists lie.
+
+        A traversal leaves at most one node on the stack for each level of the tree; every cell and
+        every object is listed at most once, and of the land only what is about the mover.
+        """
+        depth = max((shape.depth for shape in self.shapes), default=0)
+        cell_list = int(at.STATE_SIZE) + depth
+        touched = cell_list + num_listed + _MAX_OUTSIDE
+        return {
+            int(at.WORLD_STACK): int(at.STATE_SIZE),
+            int(at.WORLD_CELL_LIST): cell_list,
+            int(at.WORLD_TOUCHED): touched,
+            int(at.WORLD_ROW): touched + self.num_objects,
+        }
 
     def __repr__(self) -> str:
         return f"<World: {len(self.cell_ids)} cells, {self.num_objects} objects, {len(self.shapes)} shapes>"
 
 
-def _check_ids(ids: tuple[int, ...]) -> None:
-    if not ids:
-        raise WorldError("world", "has no cells")
-    for index, cell_id in enumerate(ids):
-        if not 0 <= cell_id <= 0xFFFF_FFFF or (cell_id & 0xFFFF) < FIRST_INDOOR:
-            raise WorldError(f"cell {index}", f"{cell_id:#x} is not the id of an indoor cell")
-        if cell_id in ids[:index]:
-            raise WorldError(f"cell {index}", f"id {cell_id:#010x} is used twice")
+def _write_ids(storage: Storage, keys: Mapping[int, int]) -> dict[int, int]:
+    table = id_table(keys)
+    return {int(at.WORLD_IDS): storage.add_ints(table), int(at.WORLD_IDS_MASK): len(table) // 2 - 1}
 
 
-def _unique_shapes(cells: Sequence[Cell]) -> Iterator[Shape]:
+def _object_lists(
+    numbers: CellNumbers,
+    cells: Sequence[Cell],
+    shadows: Mapping[int, Sequence[Obstacle]],
+    found: Mapping[int, Sequence[Obstacle]],
+) -> Iterator[tuple[str, Sequence[Obstacle]]]:
+    """Yield the name of each cell, and what is in it."""
+    for cell_id in shadows:
+        if numbers.index(cell_id) == at.NO_CELL:
+            raise WorldError(f"shadows, {cell_id:#010x}", "is not a cell of the world")
+    for index, cell_id in enumerate(numbers.ids):
+        own = cells[index].objects if index < len(cells) else ()
+        yield f"cell {cell_id:#010x}", (*own, *shadows.get(cell_id, ()), *found.get(cell_id, ()))
+
+
+def _unique_shapes(
+    cells: Sequence[Cell], buildings: Sequence[Building], obstacles: Sequence[Obstacle]
+) -> Iterator[Shape]:
+    """Yield every geometry that may be collided with once, in order of first mention."""
     seen: set[int] = set()
-    for cell in cells:
-        for shape in (cell.shape, *(thing.shape for thing in cell.objects)):
-            if shape is not None and id(shape) not in seen:
-                seen.add(id(shape))
-                yield shape
-
-
-class _Compiler:
-    """Lays out a world: all nodes, then polygons, planes, cells and objects."""
-
-    def __init__(self, cells: Sequence[Cell], shapes: tuple[Shape, ...]) -> None:
-        nodes = at.FIRST_NODE + sum(len(shape.node_ints) for shape in shapes)
-        self._floats: list[Array] = [np.zeros(at.NODE_FLOATS * at.FIRST_NODE, dtype=np.float64)]
-        self._ints: list[Ints] = [np.zeros(at.NODE_INTS * at.FIRST_NODE, dtype=np.int64)]
-        self._num_floats = at.NODE_FLOATS * nodes
-        self._num_ints = at.NODE_INTS * nodes
-        self._tail_floats: list[Array] = []
-        self._tail_ints: list[Ints] = []
-        self.polygons: Final[list[int]] = []
-        self._roots: dict[int, int] = {}
-        self._planes: dict[int, tuple[int, int]] = {}
-        first = at.FIRST_NODE
-        for index, shape in enumerate(shapes):
-            self._add_shape(index, shape, first)
-            first += len(shape.node_ints)
-        header = self._add_cells(cells)
-        self.floats: Final = np.concatenate([*self._floats, *self._tail_floats])
-        self.ints: Final = np.concatenate([*self._ints, *self._tail_ints])
-        depth = max((shape.depth for shape in shapes), default=0)
-        self.ints[: len(header)] = header
-        self._size_rows(len(cells), sum(len(cell.objects) for cell in cells), depth)
-
-    def _append_floats(self, values: Array) -> int:
-        offset = self._num_floats
-        self._tail_floats.append(values)
-        self._num_floats += len(values)
-        return offset
-
-    def _append_ints(self, values: Sequence[int] | Ints) -> int:
-        offset = self._num_ints
-        self._tail_ints.append(np.asarray(values, dtype=np.int64))
-        self._num_ints += len(values)
-        return offset
-
-    def _add_shape(self, index: int, shape: Shape, first: int) -> None:
-        """Append a shape; its tree gets node numbers from `first` on."""
-        polygons = shape.polygon_floats.copy()
-        polygons[shape.polygon_offsets + at.POLYGON_SHAPE] = index
-        base = self._append_floats(polygons)
-        self.polygons.append(base)
-        leaf_lists = self._append_ints(base + shape.polygon_offsets[shape.leaf_polygons])
-        nodes = shape.node_ints.copy()
-        interior = nodes[:, at.NODE_KIND] == at.KIND_NODE
-        nodes[interior, at.NODE_POSITIVE] += first
-        nodes[interior, at.NODE_NEGATIVE] += first
-        nodes[~interior, at.LEAF_FIRST] += leaf_lists
-        self._floats.append(shape.node_floats.ravel())
-        self._ints.append(nodes.ravel())
-        self._roots[id(shape)] = first
-        if shape.cell_planes is None:
-            self._planes[id(shape)] = (0, at.NO_PLANES)
-        else:
-            self._planes[id(shape)] = (self._append_floats(shape.cell_planes.ravel()), len(shape.cell_planes))
-
-    def _add_cells(self, cells: Sequence[Cell]) -> list[int]:
-        """Append all cells and objects; return the header's first five numbers."""
-        index_of = {cell.id: i for i, cell in enumerate(cells)}
-        cell_floats: list[Array] = []
-        cell_ints: list[list[int]] = []
-        object_floats: list[Array] = []
-        object_ints: list[list[int]] = []
-        for cell in cells:
-            where = f"cell {cell.id:#010x}"
-            cell_floats.append(np.append(position_row(cell.pose, f"{where}, pose"), float(cell.id)))
-            cell_ints.append(self._cell_ints(cell, index_of, len(object_ints), where))
-            for i, thing in enumerate(cell.objects):
-                object_floats.append(_object_floats(thing, f"{where}, object {i}"))
-                object_ints.append([self._roots[id(thing.shape)], thing.state])
-        return [
-            len(cells),
-            self._append_floats(np.concatenate(cell_floats)),
-            self._append_ints(np.concatenate(cell_ints)),
-            self._append_floats(np.concatenate([*object_floats, np.empty(0)])),
-            self._append_ints(np.array(object_ints, dtype=np.int64).ravel()),
-        ]
-
-    def _cell_ints(self, cell: Cell, index_of: dict[int, int], first_object: int, where: str) -> list[int]:
-        unknown = [portal for portal in cell.portals if portal not in index_of]
-        if unknown:
-            raise WorldError(where, f"a portal leads to {unknown[0]:#010x}, which is not in the world")
-        portals = self._append_ints([index_of[portal] for portal in cell.portals])
-        root, planes = at.NO_TREE, (0, at.NO_PLANES)
-        if cell.shape is not None:
-            root, planes = self._roots[id(cell.shape)], self._planes[id(cell.shape)]
-        return [root, *planes, portals, len(cell.portals), first_object, len(cell.objects)]
-
-    def _size_rows(self, num_cells: int, num_objects: int, depth: int) -> None:
-        """Say where in a row the stack and the lists lie.
-
-        Every cell and every object is listed at most once; a traversal leaves at most one node on
-        the stack for each level of the tree.
-        """
-        self.ints[at.WORLD_STACK] = at.STATE_SIZE
-        self.ints[at.WORLD_CELL_LIST] = at.STATE_SIZE + depth
-        self.ints[at.WORLD_ROW] = at.STATE_SIZE + depth + num_cells + num_objects
-
-
-def _object_floats(thing: StaticObject, where: str) -> Array:
-    scale = float32_array([thing.scale], (1,), f"{where}, scale", WorldError)
-    if not scale[0] > 0.0:
-        raise WorldError(f"{where}, scale", f"{thing.scale} is not greater than 0")
-    if not 0 <= thing.state < 1 << 31:
-        raise WorldError(f"{where}, state", f"{thing.state} is not a set of PhysicsState bits")
-    return np.concatenate((position_row(thing.pose, f"{where}, pose"), scale))
+    mentioned = (
+        *(cell.shape for cell in cells),
+        *(building.shape for building in buildings),
+        *(part.shape for thing in obstacles for part in thing.parts),
+    )
+    for shape in mentioned:
+        if shape is not None and id(shape) not in seen:
+            seen.add(id(shape))
+            yield shape

@@ -2,7 +2,17 @@
 
 from __future__ import annotations
 
+from typing import TYPE_CHECKING, Final
+
 from oracle.vector import Vector3
+
+if TYPE_CHECKING:
+    from collections.abc import Iterable
+
+    from oracle.position import Position
+
+_CORNERS: Final = ("lll", "llh", "lhl", "lhh", "hll", "hlh", "hhl", "hhh")
+"""The eight corners; their order does not matter to the boxes around them (09 8)."""
 
 
 class BBox:
@@ -17,6 +27,22 @@ class BBox:
     def __repr__(self) -> str:
         return f"BBox({self.min!r}, {self.max!r})"
 
+    @classmethod
+    def around(cls, points: Iterable[Vector3]) -> BBox:
+        """Return the smallest box that holds points; there must be one at least."""
+        first, *others = points
+        box = cls(first.copy(), first.copy())
+        for point in others:
+            box._reach(point)
+        return box
+
+    def _reach(self, point: Vector3) -> None:
+        """Grow until the point is inside (strict comparisons, 09 8)."""
+        low, high = self.min, self.max
+        low.x, high.x = min(low.x, point.x), max(high.x, point.x)
+        low.y, high.y = min(low.y, point.y), max(high.y, point.y)
+        low.z, high.z = min(low.z, point.z), max(high.z, point.z)
+
     def corner(self, which: str) -> Vector3:
         """Return a corner by three letters, ``l`` (low) or ``h`` (high) for each of x, y, z."""
         return Vector3(
@@ -24,3 +50,17 @@ class BBox:
             self.max.y if which[1] == "h" else self.min.y,
             self.max.z if which[2] == "h" else self.min.z,
         )
+
+    def local_to_local(self, from_pos: Position, to_pos: Position) -> BBox:
+        """Return the box around this box of the space of `from_pos`, in the space of `to_pos`.
+
+        retail: BBox::LocalToLocal 0x005B1E60, 09 8.
+        """
+        return BBox.around(to_pos.localtolocal(from_pos, self.corner(which)) for which in _CORNERS)
+
+    def local_to_global(self, from_pos: Position, to_pos: Position) -> BBox:
+        """Return the box around this box of the space of `from_pos`, in the block of `to_pos`.
+
+        retail: BBox::LocalToGlobal 0x005B2120, 09 8.
+        """
+        return BBox.around(to_pos.localtoglobal(from_pos, self.corner(which)) for which in _CORNERS)

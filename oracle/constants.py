@@ -24,6 +24,8 @@ LEAST_WALK_INTERP: Final = -0.5
 """How far below the start a sphere may be put back onto a plane; fraction of the movement (02, AS-4)."""
 CELL_EDGE: Final = 24.0
 """Edge of a land cell, metres."""
+HALF_CELL_EDGE: Final = 12.0
+"""Half an edge of a land cell, float32; metres (10 1)."""
 BLOCK_EDGE: Final = 192.0
 """Edge of a landblock, metres."""
 DEGREES_PER_RADIAN: Final = 57.29577951308232

@@ -47,6 +47,14 @@ class Sidedness(IntEnum):
     CROSSING = 3
 
 
+class WaterType(IntEnum):
+    """How much of a land cell, or of a landblock, is water (LandDefs::WaterType, 10 6.3)."""
+
+    NOT_WATER = 0
+    PARTIALLY_WATER = 1
+    ENTIRELY_WATER = 2
+
+
 class BoundingType(IntEnum):
     """How much of a sphere is in a cell (01 section 7)."""
 

@@ -4,20 +4,18 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from oracle.arithmetic import f32
-from oracle.constants import EPS
+from oracle import env_cell_transit
 from oracle.enums import CONTACT_OI, BoundingType, InsertType, TransitionState
-from oracle.errors import NotPortedError
 from oracle.obj_cell import ObjCell
-from oracle.sphere import Sphere
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
+    from oracle.bbox import BBox
     from oracle.bsp_tree import BSPTree
-    from oracle.cell_array import CellArray
     from oracle.plane import Plane
     from oracle.position import Position
+    from oracle.sphere import Sphere
     from oracle.sphere_path import SpherePath
     from oracle.transition import Transition
     from oracle.vector import Vector3
@@ -50,6 +48,10 @@ class CellStruct:
             return BoundingType.ENTIRELY_INSIDE
         return self.cell_bsp.sphere_intersects_cell_bsp(sphere)
 
+    def box_intersects_cell(self, box: BBox) -> int:
+        """Tell whether a box (cell space) reaches into the cell (CCellStruct, 09 4.3.8)."""
+        return 1 if self.cell_bsp is None else self.cell_bsp.box_intersects_cell_bsp(box)
+
 
 class CellPortal:
     """A portal of a cell (CCellPortal, 09 2.1).
@@ -61,8 +63,8 @@ class CellPortal:
     portal_side : int
         On which side of the plane the cell's interior is: 0 the positive, 1 the negative.
     plane : Plane or None
-        The portal polygon's plane in cell space; only looked at for an exterior portal or a cell that
-        is not loaded, and may be None for the others.
+        The portal polygon's plane in cell space. Spheres only look at that of an exterior portal or of a
+        cell that is not loaded; it may be None where nothing else is registered.
     """
 
     __slots__ = ("other_cell_id", "plane", "portal_side")
@@ -72,10 +74,18 @@ class CellPortal:
         self.portal_side = portal_side
         self.plane = plane
 
+    def get_other_cell(self, world: World) -> EnvCell | None:
+        """Return the interior cell behind the portal, if it is loaded.
+
+        retail: CCellPortal::GetOtherCell 0x0053BA30, 09 2.
+        """
+        return None if self.other_cell_id is None else world.cells.get(self.other_cell_id)
+
     def required_plane(self) -> Plane:
         """Return the plane, where retail looks at it."""
         if self.plane is None:
-            message = f"the portal to {self.other_cell_id} needs its plane: that cell is not loaded"
+            behind = "the exterior" if self.other_cell_id is None else f"{self.other_cell_id:#010x}"
+            message = f"the portal to {behind} needs its plane"
             raise ValueError(message)
         return self.plane
 
@@ -162,70 +172,29 @@ class EnvCell(ObjCell):
         # 09 4.1.3
         return self.structure.point_in_cell(p)
 
-    def find_transit_cells(
-        self, p: Position, num_sphere: int, spheres: Sequence[Sphere], array: CellArray
-    ) -> None:
-        """Add the cells behind the portals that the spheres reach (landblock coordinates of `p`).
+    find_transit_cells = env_cell_transit.find_transit_cells
+    find_transit_cells_of_parts = env_cell_transit.find_transit_cells_of_parts
+    check_building_transit = env_cell_transit.check_building_transit
+    check_building_transit_of_parts = env_cell_transit.check_building_transit_of_parts
 
-        Raises
-        ------
-        NotPortedError
-            A sphere touches an exterior portal.
+    def find_visible_child_cell(self, origin: Vector3, *, search_stabs: bool) -> EnvCell | None:
+        """Return the cell that contains a point (block coordinates, metres): this one or one near it.
 
-        Notes
-        -----
-        retail: CEnvCell::find_transit_cells 0x0052C820, 09 4.2.
+        `search_stabs` asks the cells visible from this one, otherwise the cells behind its portals.
+
+        retail: CEnvCell::find_visible_child_cell 0x0052DC50, 09 7.
         """
-        outside = False
-        for portal in self.portals or ():
-            # 09 4.2 A
-            if portal.other_cell_id is None:
-                outside = outside or self._touches_exterior(portal, num_sphere, spheres)
-                continue
-            other = self.world.cells.get(portal.other_cell_id)
-            # 09 4.2 B
-            if other is not None:
-                if other.is_reached_by(num_sphere, spheres):
-                    array.add_cell(other.id, other)
-            # 09 4.2 C
-            elif self._reaches_unloaded(portal, num_sphere, spheres):
-                array.add_cell(portal.other_cell_id, None)
-        if outside:
-            raise NotPortedError("the land cells behind an exterior portal (09 6.4)")
-
-    def is_reached_by(self, num_sphere: int, spheres: Sequence[Sphere]) -> bool:
-        """Tell whether a sphere (block coordinates) touches this cell (09 4.2 B)."""
-        for sphere in spheres[:num_sphere]:
-            local = Sphere(self.pos.frame.globaltolocal(sphere.center), sphere.radius)
-            if self.structure.sphere_intersects_cell(local):
-                return True
-        return False
-
-    def _touches_exterior(self, portal: CellPortal, num_sphere: int, spheres: Sequence[Sphere]) -> bool:
-        """Tell whether a sphere touches the infinite plane of an exterior portal (09 4.2 A)."""
-        m, plane = self.pos.frame, portal.required_plane()
-        o, n = m.origin, plane.N
-        for sphere in spheres[:num_sphere]:
-            dx = sphere.center.x - o.x
-            dy = sphere.center.y - o.y
-            dz = sphere.center.z - o.z
-            lx = f32((dx * m.m0 + dz * m.m2) + dy * m.m1)
-            ly = f32((dx * m.m3 + dz * m.m5) + dy * m.m4)
-            lz = (dz * m.m8 + dy * m.m7) + dx * m.m6
-            rad = f32(sphere.radius + EPS)
-            d = ((lz * n.z + ly * n.y) + lx * n.x) + plane.d
-            if d > -rad and d < rad:
-                return True
-        return False
-
-    def _reaches_unloaded(self, portal: CellPortal, num_sphere: int, spheres: Sequence[Sphere]) -> bool:
-        """Tell whether a sphere reaches through the portal of a cell that is not loaded (09 4.2 C)."""
-        plane = portal.required_plane()
-        n = plane.N
-        for sphere in spheres[:num_sphere]:
-            l = self.pos.frame.globaltolocal(sphere.center)
-            rad = sphere.radius + EPS
-            d = ((l.y * n.y + l.z * n.z) + l.x * n.x) + plane.d
-            if (d > -rad and portal.portal_side == 1) or (d < rad and portal.portal_side == 0):
-                return True
-        return False
+        # 09 7.1
+        if self.point_in_cell(origin):
+            return self
+        # 09 7.2
+        if search_stabs:
+            others = (self.world.cells.get(cell_id) for cell_id in self.stab_list)
+        # 09 7.3
+        else:
+            others = (portal.get_other_cell(self.world) for portal in self.portals or ())
+        for other in others:
+            if other is not None and other.point_in_cell(origin):
+                return other
+        # 09 7.4
+        return None

@@ -21,6 +21,20 @@ class NotPortedError(OracleError):
         self.what = what
 
 
+class UndeterminedError(OracleError):
+    """A query reached a branch of which the specification does not know how retail takes it.
+
+    Attributes
+    ----------
+    what : str
+        What happened, with the place in the specification.
+    """
+
+    def __init__(self, what: str) -> None:
+        super().__init__(f"retail's answer is not known: {what}")
+        self.what = what
+
+
 class MissingChildError(OracleError):
     """A physics query reached an interior node that lacks a child.
 

@@ -1,31 +1,33 @@
-"""CObjCell: a cell with objects in it, and the lists of cells that spheres reach."""
+"""CObjCell: a cell with objects in it."""
 
 from __future__ import annotations
 
 from abc import ABC, abstractmethod
-from typing import TYPE_CHECKING, TypeAlias
+from typing import TYPE_CHECKING, Final, TypeAlias
 
-from oracle.arithmetic import f32
-from oracle.enums import IS_PLAYER, InsertType, TransitionState
-from oracle.errors import NotPortedError
-from oracle.land_defs import get_block_offset
-from oracle.sphere_path import FIRST_INTERIOR_CELL
-from oracle.vector import Vector3
+from oracle.enums import IS_PLAYER, InsertType, TransitionState, WaterType
+from oracle.land_defs import FIRST_INTERIOR_CELL
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Sequence
 
     from oracle.cell_array import CellArray
+    from oracle.land_block_struct import LandBlockStruct
     from oracle.physics_object import PhysicsObj
+    from oracle.physics_part import PhysicsPart
     from oracle.position import Position
-    from oracle.ref import Ref
     from oracle.sphere import Sphere
     from oracle.sphere_path import SpherePath
     from oracle.transition import Transition
+    from oracle.vector import Vector3
     from oracle.weenie import Weenie
-    from oracle.world import World
 
-    Restriction: TypeAlias = Callable[[Weenie], bool]
+    Restriction: TypeAlias = Callable[[Weenie], bool | None]
+
+DEEP_WATER: Final = 0.8999999761581421
+"""Water depth in a cell that is all water, float32 of 0.9; metres (10 6.4)."""
+SHALLOW_WATER: Final = 0.1
+"""Water depth in a cell with some water that has no block, a double; metres (10 6.4)."""
 
 
 class ObjCell(ABC):
@@ -42,7 +44,12 @@ class ObjCell(ABC):
     stab_list : tuple of int
         Ids of the cells visible from here.
     restriction : callable or None
-        Whether a mover's game object may enter; None lets everyone in (09 3.1, the named hook).
+        Whether a mover's game object may enter, or None where what restricts the cell is not there;
+        no callable lets everyone in (09 3.1, the named hook).
+    water_type : WaterType
+        How much of the cell is water; only land cells have any.
+    block : LandBlockStruct or None
+        The landblock that a land cell belongs to.
     """
 
     def __init__(self, cell_id: int, pos: Position) -> None:
@@ -51,6 +58,8 @@ class ObjCell(ABC):
         self.shadow_object_list: list[PhysicsObj] = []
         self.stab_list: tuple[int, ...] = ()
         self.restriction: Restriction | None = None
+        self.water_type = WaterType.NOT_WATER
+        self.block: LandBlockStruct | None = None
 
     def __repr__(self) -> str:
         return f"{type(self).__name__}({self.id:#010x})"
@@ -70,9 +79,18 @@ class ObjCell(ABC):
 
     @abstractmethod
     def find_transit_cells(
-        self, p: Position, num_sphere: int, spheres: Sequence[Sphere], array: CellArray
+        self,
+        p: Position,
+        num_sphere: int,
+        spheres: Sequence[Sphere],
+        array: CellArray,
+        path: SpherePath | None,
     ) -> None:
         """Add the neighbours that the spheres reach (landblock coordinates of `p`)."""
+
+    @abstractmethod
+    def find_transit_cells_of_parts(self, parts: Sequence[PhysicsPart | None], array: CellArray) -> None:
+        """Add the neighbours that an object's parts reach."""
 
     def check_entry_restrictions(self, transition: Transition) -> TransitionState:
         """Refuse movers that may not enter.
@@ -81,15 +99,26 @@ class ObjCell(ABC):
 
         retail: CObjCell::check_entry_restrictions 0x0052B6D0, 09 3.1.
         """
+        # 09 3.1.1
         mover = transition.object_info.object
         if mover is None:
             return TransitionState.COLLIDED
+        # 09 3.1.2
         weenie = mover.weenie_obj
         if weenie is None or weenie.can_bypass_move_restrictions or self.restriction is None:
             return TransitionState.OK
-        if transition.object_info.state & IS_PLAYER and not self.restriction(weenie):
-            return TransitionState.COLLIDED
+        if transition.object_info.state & IS_PLAYER:
+            admitted = self.restriction(weenie)
+            if not admitted:
+                if admitted is not None:
+                    self.handle_move_restriction(transition)
+                return TransitionState.COLLIDED
+        # 09 3.1.3
         return TransitionState.OK
+
+    def handle_move_restriction(self, transition: Transition) -> int:
+        """Respond to a refused entry; only land cells do something about it (09 3.1)."""
+        return 0
 
     def find_obj_collisions(self, transition: Transition) -> TransitionState:
         """Test the path against the objects registered here until one is in the way.
@@ -100,8 +129,9 @@ class ObjCell(ABC):
         if transition.sphere_path.insert_type == InsertType.INITIAL_PLACEMENT:
             return TransitionState.OK
         # 09 3.2.2
+        mover = transition.object_info.object
         for physobj in self.shadow_object_list:
-            if physobj.parent is not None or physobj is transition.object_info.object:
+            if physobj.parent is not None or _same_object(physobj, mover):
                 continue
             r = physobj.find_obj_collisions(transition)
             if r != TransitionState.OK:
@@ -109,109 +139,43 @@ class ObjCell(ABC):
         # 09 3.2.3
         return TransitionState.OK
 
+    def get_block_water_type(self) -> WaterType:
+        """Return how much of the cell's landblock is water.
 
-def find_cell_list(
-    world: World,
-    p: Position,
-    num_sphere: int,
-    spheres: Sequence[Sphere],
-    array: CellArray,
-    curr_cell: Ref[ObjCell | None] | None,
-    path: SpherePath | None,
-) -> None:
-    """List the cells that spheres reach, and find the one that contains sphere 0.
+        retail: CObjCell::get_block_water_type 0x0052AD90, 10 6.3.
+        """
+        return WaterType.NOT_WATER if self.block is None else self.block.water_type
 
-    Parameters
-    ----------
-    world : World
-        The loaded cells.
-    p : Position
-        Where the search starts; the spheres are in its landblock's coordinates, metres.
-    num_sphere : int
-        How many of `spheres` count.
-    array : CellArray
-        Filled anew.
-    curr_cell : Ref or None
-        Takes the containing cell or None; left alone if the starting cell is not loaded or there are
-        no spheres.
-    path : SpherePath or None
-        Is told that an interior cell was reached.
+    def get_water_depth(self, point: Vector3) -> float:
+        """Return the depth of the water at a point (block coordinates), metres, in a register.
 
-    Raises
-    ------
-    NotPortedError
-        The search starts outdoors.
+        retail: CObjCell::get_water_depth 0x0052B8A0, 10 6.4.
+        """
+        if self.water_type == WaterType.ENTIRELY_WATER:
+            return DEEP_WATER
+        if self.water_type == WaterType.PARTIALLY_WATER:
+            return SHALLOW_WATER if self.block is None else self.block.calc_water_depth(self.id, point)
+        return 0.0
 
-    Notes
-    -----
-    retail: CObjCell::find_cell_list 0x0052B4E0, 09 5.1.
-    """
-    # 09 5.1.1
-    array.cells.clear()
-    array.added_outside = 0
-    # 09 5.1.2
-    start = world.get_visible(p.objcell_id)
-    # 09 5.1.3
-    interior = (p.objcell_id & 0xFFFF) >= FIRST_INTERIOR_CELL
-    if not interior:
-        raise NotPortedError("a search of cells that starts outdoors (09 6.4)")
-    if path is not None:
-        path.hits_interior_cell = 1
-    array.add_cell(p.objcell_id, start)
-    # 09 5.1.4
-    if start is None or num_sphere == 0:
-        return
-    # 09 5.1.5
-    i = 0
-    while i < array.num_cells:
-        cell = array.cells[i].cell
-        if cell is not None:
-            cell.find_transit_cells(p, num_sphere, spheres, array)
-        i += 1
-    # 09 5.1.6
-    if curr_cell is not None:
-        curr_cell.value = _containing_cell(p, spheres[0].center, array, path)
-    # 09 5.1.7
-    if array.do_not_load_cells:
-        _prune(array, start)
+    def add_shadow_object(self, physobj: PhysicsObj) -> None:
+        """Register an object, to be tested after those that are here already.
+
+        retail: CObjCell::add_shadow_object 0x0052B280, 08 9.5.
+        """
+        self.shadow_object_list.append(physobj)
+
+    def remove_shadow_object(self, physobj: PhysicsObj) -> None:
+        """Forget an object; the last one takes its place in the order.
+
+        retail: CObjCell::remove_shadow_object 0x0052B2D0, 08 9.5.
+        """
+        found = next((i for i, other in enumerate(self.shadow_object_list) if other is physobj), None)
+        if found is not None:
+            last = self.shadow_object_list.pop()
+            if last is not physobj:
+                self.shadow_object_list[found] = last
 
 
-def _containing_cell(
-    p: Position, center: Vector3, array: CellArray, path: SpherePath | None
-) -> ObjCell | None:
-    """Return the first interior cell that contains the point, else the last outdoor one (09 5.1.6)."""
-    found: ObjCell | None = None
-    for entry in array.cells:
-        cell = entry.cell
-        if cell is None:
-            continue
-        off = get_block_offset(p.objcell_id, cell.id)
-        lp = Vector3(f32(center.x - off.x), f32(center.y - off.y), f32(center.z - off.z))
-        if cell.point_in_cell(lp):
-            found = cell
-            if cell.is_interior:
-                if path is not None:
-                    path.hits_interior_cell = 1
-                break
-    return found
-
-
-def _prune(array: CellArray, start: ObjCell) -> None:
-    """Keep only the starting cell and what is visible from it (09 5.1.7)."""
-    i = 0
-    while i < array.num_cells:
-        cell_id = array.cells[i].cell_id
-        if cell_id == start.id or cell_id in start.stab_list:
-            i += 1
-        else:
-            array.remove_cell(i)
-
-
-def find_cell_list_for_path(
-    world: World, array: CellArray, curr_cell: Ref[ObjCell | None] | None, path: SpherePath
-) -> None:
-    """List the cells that the check position's spheres reach.
-
-    retail: CObjCell::find_cell_list(array, check_cell, path) 0x0052B960, 09 5.2.
-    """
-    find_cell_list(world, path.check_pos, path.num_sphere, path.global_sphere, array, curr_cell, path)
+def _same_object(physobj: PhysicsObj, mover: PhysicsObj | None) -> bool:
+    """Tell whether an obstacle is the mover: by identity, as in retail, or by its id, unless it has none."""
+    return mover is not None and (physobj is mover or 0 != physobj.id == mover.id)

@@ -16,8 +16,8 @@ from oracle.enums import (
     ON_WALKABLE_OI,
     TransitionState,
 )
+from oracle.land_defs import FIRST_INTERIOR_CELL
 from oracle.physics_state import ETHEREAL_PS, MISSILE_PS
-from oracle.sphere_path import FIRST_INTERIOR_CELL
 from oracle.vector import Vector3
 
 if TYPE_CHECKING:

@@ -5,6 +5,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from oracle import (
+    physics_object_cells,
     physics_object_collisions,
     physics_object_contact,
     physics_object_obstacle,
@@ -55,6 +56,10 @@ class PhysicsObj:
         The game object behind it.
     parent : PhysicsObj or None
         What it is attached to.
+    children : list of PhysicsObj
+        What is attached to it.
+    shadow_objects : list of (int, ObjCell or None)
+        The cells it is registered in, by id; None is one that is not loaded.
     movement_manager : MovementManager or None
         Its steering; an object without one rests once it stands still.
     position_manager : PositionManager or None
@@ -89,6 +94,7 @@ class PhysicsObj:
     __slots__ = (
         "cached_velocity",
         "cell",
+        "children",
         "colliding_with_environment",
         "collision_table",
         "contact_plane",
@@ -109,6 +115,7 @@ class PhysicsObj:
         "player_distance",
         "player_vector",
         "position_manager",
+        "shadow_objects",
         "sliding_normal",
         "state",
         "transient_state",
@@ -139,6 +146,8 @@ class PhysicsObj:
         self.part_array = part_array
         self.weenie_obj = weenie
         self.parent = parent
+        self.children: list[PhysicsObj] = []
+        self.shadow_objects: list[tuple[int, ObjCell | None]] = []
         self.movement_manager: MovementManager | None = None
         self.position_manager: PositionManager | None = None
         self.m_velocity = Vector3()
@@ -211,6 +220,12 @@ class PhysicsObj:
     set_frame = physics_object_position.set_frame
 
     find_obj_collisions = physics_object_obstacle.find_obj_collisions
+
+    calc_cross_cells = physics_object_cells.calc_cross_cells
+    calc_cross_cells_static = physics_object_cells.calc_cross_cells_static
+    find_bbox_cell_list = physics_object_cells.find_bbox_cell_list
+    add_shadows_to_cells = physics_object_cells.add_shadows_to_cells
+    remove_shadows_from_cells = physics_object_cells.remove_shadows_from_cells
 
     set_position = physics_object_placement.set_position
     place = physics_object_placement.place

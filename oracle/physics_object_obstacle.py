@@ -17,7 +17,6 @@ from oracle.enums import (
     IS_VIEWER_OI,
     TransitionState,
 )
-from oracle.errors import NotPortedError
 from oracle.physics_state import (
     ETHEREAL_PS,
     HAS_PHYSICS_BSP_PS,
@@ -35,13 +34,6 @@ if TYPE_CHECKING:
 def find_obj_collisions(self: PhysicsObj, transition: Transition) -> TransitionState:
     """Test the path against this object.
 
-    Raises
-    ------
-    NotPortedError
-        The object would be tested as cylinders or spheres (07).
-
-    Notes
-    -----
     retail: CPhysicsObj::FindObjCollisions 0x0050F050, 08 3.
     """
     oi, path, coll = transition.object_info, transition.sphere_path, transition.collision_info
@@ -58,16 +50,18 @@ def find_obj_collisions(self: PhysicsObj, transition: Transition) -> TransitionS
         return TransitionState.OK
     # 08 3.4
     path.obstruction_ethereal = eth
+    # 08 3.6
+    is_creature = bool(self.state & MISSILE_PS) or (weenie is not None and weenie.is_creature)
     # 08 3.5, 08 3.7, 08 3.8
     r = TransitionState.OK
     if not _is_exempt(self, oi) and not oi.missile_ignore(self):
-        r = _find_shape_collisions(self, transition)
+        r = _find_shape_collisions(self, transition, is_creature=is_creature)
     # 08 3.9
     if r != TransitionState.OK and not path.step_down:
         if self.state & STATIC_PS:
             if not oi.state & CONTACT_OI:
                 coll.collided_with_environment = 1
-        elif eth or (_counts_as_creature(self) and oi.state & IGNORE_CREATURES):
+        elif eth or (is_creature and oi.state & IGNORE_CREATURES):
             r = TransitionState.OK
             coll.collision_normal_valid = 0
             coll.add_object(self, TransitionState.OK)
@@ -92,21 +86,25 @@ def _is_exempt(self: PhysicsObj, oi: ObjectInfo) -> bool:
     )
 
 
-def _counts_as_creature(self: PhysicsObj) -> bool:
-    """Tell whether the object is a creature or a missile (08 3.6)."""
-    weenie = self.weenie_obj
-    return bool(self.state & MISSILE_PS) or (weenie is not None and weenie.is_creature)
+def _find_shape_collisions(self: PhysicsObj, transition: Transition, *, is_creature: bool) -> TransitionState:
+    """Test the one family of shapes that counts: BSP parts, else cylinders, else spheres (08 3.8).
 
-
-def _find_shape_collisions(self: PhysicsObj, transition: Transition) -> TransitionState:
-    """Test the one family of shapes that counts: BSP parts, else cylinders, else spheres (08 3.8)."""
+    The next family is not tried if one finds nothing.
+    """
     parts = self.part_array
     if parts is None:
         return TransitionState.OK
     if self.state & HAS_PHYSICS_BSP_PS:
         return parts.find_obj_collisions(transition)
-    if parts.setup is not None and parts.setup.num_cylsphere > 0:
-        raise NotPortedError("objects shaped as cylinders (07 10)")
-    if parts.setup is not None and parts.setup.num_sphere > 0:
-        raise NotPortedError("objects shaped as spheres (07 9)")
-    return TransitionState.OK
+    r = TransitionState.OK
+    for cylinder in parts.get_cylsphere():
+        r = cylinder.intersects_sphere_at(self.m_position, self.m_scale, transition)
+        if r != TransitionState.OK:
+            return r
+    if parts.get_cylsphere():
+        return r
+    for sphere in parts.get_sphere():
+        r = sphere.intersects_sphere_at(self.m_position, self.m_scale, transition, is_creature=is_creature)
+        if r != TransitionState.OK:
+            return r
+    return r

@@ -9,8 +9,8 @@ from typing import TYPE_CHECKING
 
 from oracle.arithmetic import is_nan
 from oracle.constants import FLOOR_Z
-from oracle.land_defs import adjust_to_outside
-from oracle.sphere_path import FIRST_INTERIOR_CELL
+from oracle.land_defs import FIRST_INTERIOR_CELL, adjust_to_outside
+from oracle.physics_state import HAS_PHYSICS_BSP_PS
 from oracle.transient_state import ACTIVE_TS, CONTACT_TS, ON_WALKABLE_TS, SLIDING_TS, WATER_CONTACT_TS
 
 if TYPE_CHECKING:
@@ -22,11 +22,9 @@ if TYPE_CHECKING:
 
 
 def set_position_internal(self: PhysicsObj, made: Transition) -> int:
-    """Take over position, contact and sliding normal, then respond to the collisions; always 1.
+    """Take over position, contact and sliding normal, respond to the collisions, and register; always 1.
 
-    Registration in the cells that the object reaches, WB-12, has no port yet.
-
-    retail: CPhysicsObj::SetPositionInternal(CTransition) 0x00515330, 06 WB-1…11.
+    retail: CPhysicsObj::SetPositionInternal(CTransition) 0x00515330, 06 WB-1…12.
     """
     sp, ci = made.sphere_path, made.collision_info
     # WB-1
@@ -63,6 +61,13 @@ def set_position_internal(self: PhysicsObj, made: Transition) -> int:
     _set_bit(self, SLIDING_TS, ci.sliding_normal_valid)
     # WB-11
     self.handle_all_collisions(ci, prev_contact, prev_on_walkable)
+    # WB-12
+    if self.cell is not None:
+        if self.state & HAS_PHYSICS_BSP_PS:
+            self.calc_cross_cells()
+        elif made.cell_array.num_cells:
+            self.remove_shadows_from_cells()
+            self.add_shadows_to_cells(made.cell_array)
     return 1
 
 
@@ -75,6 +80,7 @@ def _set_bit(self: PhysicsObj, bit: int, flag: int) -> None:
 
 def become_lost(self: PhysicsObj, position: Position) -> None:
     """Be in no cell any more; nothing but the position and activity changes (06 WB-2, SP-3)."""
+    self.remove_shadows_from_cells()
     self.cell = None
     self.store_position(position)
     self.transient_state &= ~ACTIVE_TS

@@ -125,7 +125,7 @@ def update_object_internal(self: PhysicsObj, quantum: float) -> None:
 def _leave_ethereal(self: PhysicsObj) -> None:
     """Become solid again, if nothing is in the way (06 UO-2)."""
     if self.parent is None:
-        raise NotPortedError("registration in cells, which becoming solid again asks (06 UO-2)")
+        raise NotPortedError("CObjCell::check_collisions, which no document specifies (06 UO-2)")
     self.state &= ~ETHEREAL_PS
     self.transient_state &= ~CHECK_ETHEREAL_TS
 

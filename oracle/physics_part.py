@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Final
 
 from oracle.constants import EPS
 from oracle.enums import InsertType, TransitionState
@@ -11,7 +11,9 @@ from oracle.enums import InsertType, TransitionState
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
+    from oracle.bbox import BBox
     from oracle.bsp_tree import BSPTree
+    from oracle.cyl_sphere import CylSphere
     from oracle.frame import Frame
     from oracle.position import Position
     from oracle.sphere import Sphere
@@ -19,15 +21,39 @@ if TYPE_CHECKING:
     from oracle.transition import Transition
     from oracle.vector import Vector3
 
+DEGRADE_MODE_3D: Final = 1
+"""The way of drawing that is not flat (09 6.5.4)."""
+
 
 class GfxObj:
-    """A graphic object: its physics BSP, or none, and the sphere of the tree's root."""
+    """A graphic object.
 
-    __slots__ = ("physics_bsp", "physics_sphere")
+    Attributes
+    ----------
+    physics_bsp : BSPTree or None
+        What is collided with.
+    physics_sphere : Sphere or None
+        The sphere of the physics tree's root.
+    bounding_box : BBox or None
+        Box of all vertices, part space, metres, unscaled (gfx_bound_box, 09 8); only looked at when an
+        object is registered in cells.
+    drawing_sphere : Sphere or None
+        Stands in for the physics sphere there.
+    """
 
-    def __init__(self, physics_bsp: BSPTree | None) -> None:
+    __slots__ = ("bounding_box", "drawing_sphere", "physics_bsp", "physics_sphere")
+
+    def __init__(
+        self,
+        physics_bsp: BSPTree | None,
+        *,
+        bounding_box: BBox | None = None,
+        drawing_sphere: Sphere | None = None,
+    ) -> None:
         self.physics_bsp = physics_bsp
         self.physics_sphere: Sphere | None = None if physics_bsp is None else physics_bsp.root_node.sphere
+        self.bounding_box = bounding_box
+        self.drawing_sphere = drawing_sphere
 
     def find_obj_collisions(self, transition: Transition, scale: float) -> TransitionState:
         """Test the path's local-space spheres against the physics BSP, if one comes near it.
@@ -67,14 +93,42 @@ class PhysicsPart:
         The part's own global position.
     gfxobj_scale : Vector3
         Of which collision only uses z.
+    degrade_modes : tuple of int
+        How the part is drawn at each level of detail; empty without degrade info.
     """
 
-    __slots__ = ("gfxobj", "gfxobj_scale", "pos")
+    __slots__ = ("degrade_modes", "gfxobj", "gfxobj_scale", "pos")
 
     def __init__(self, gfxobj: GfxObj | None, pos: Position, gfxobj_scale: Vector3) -> None:
         self.gfxobj = gfxobj
         self.pos = pos
         self.gfxobj_scale = gfxobj_scale
+        self.degrade_modes: tuple[int, ...] = ()
+
+    def always_2d(self) -> bool:
+        """Tell whether even the most detailed picture of the part is flat.
+
+        retail: CPhysicsPart::Always2D 0x0050D8A0, 09 6.5.4.
+        """
+        return bool(self.degrade_modes) and self.degrade_modes[0] != DEGRADE_MODE_3D
+
+    def bounding_sphere(self) -> Sphere | None:
+        """Return the physics sphere, else the drawing sphere; part space, metres, unscaled (09 4.3.1)."""
+        g = self.gfxobj
+        return None if g is None else g.physics_sphere or g.drawing_sphere
+
+    def bounding_box(self) -> BBox:
+        """Return the box of the graphic object, part space, metres, unscaled (0x0050D600, 09 8).
+
+        Raises
+        ------
+        ValueError
+            The part was made without one: it is not meant to be registered in cells.
+        """
+        if self.gfxobj is None or self.gfxobj.bounding_box is None:
+            message = "a part that is registered in cells needs its bounding box (09 8)"
+            raise ValueError(message)
+        return self.gfxobj.bounding_box
 
     def cache_local_space(self, path: SpherePath) -> None:
         """Take the path's spheres into the part's space (08 6.2, of find_obj_collisions)."""
@@ -101,22 +155,34 @@ class Setup:
 
     Attributes
     ----------
-    num_cylsphere, num_sphere : int
-        How many collision cylinders and spheres it has.
     step_up_height, step_down_height : float
         Metres, before the part array's scale.
+    cylsphere : tuple of CylSphere
+        The collision cylinders, object space, metres.
     sphere : tuple of Sphere
-        The collision spheres, object space, metres; a mover needs all `num_sphere` of them.
+        The collision spheres, object space, metres; a mover's are what moves.
     allow_free_heading : bool
         Whether the object may turn where it cannot move.
+    sorting_sphere : Sphere or None
+        Bounds the object, object space, metres, unscaled (08 9.2); None is not set.
     """
 
-    num_cylsphere: int = 0
-    num_sphere: int = 0
     step_up_height: float = 0.0
     step_down_height: float = 0.0
+    cylsphere: tuple[CylSphere, ...] = ()
     sphere: tuple[Sphere, ...] = ()
     allow_free_heading: bool = False
+    sorting_sphere: Sphere | None = None
+
+    @property
+    def num_cylsphere(self) -> int:
+        """How many collision cylinders it has."""
+        return len(self.cylsphere)
+
+    @property
+    def num_sphere(self) -> int:
+        """How many collision spheres it has."""
+        return len(self.sphere)
 
 
 class PartArray:
@@ -132,6 +198,10 @@ class PartArray:
     def get_num_sphere(self) -> int:
         """Return the number of collision spheres; 0 without a setup."""
         return 0 if self.setup is None else self.setup.num_sphere
+
+    def get_cylsphere(self) -> Sequence[CylSphere]:
+        """Return the collision cylinders (object space, metres, unscaled)."""
+        return () if self.setup is None else self.setup.cylsphere
 
     def get_sphere(self) -> Sequence[Sphere]:
         """Return the collision spheres (object space, metres, unscaled)."""

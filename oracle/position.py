@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from oracle.arithmetic import f32
 from oracle.frame import Frame
-from oracle.land_defs import get_block_offset
+from oracle.land_defs import adjust_to_outside, get_block_offset
 from oracle.vector import Vector3
 
 
@@ -117,6 +117,14 @@ class Position:
         retail: Position::distance 0x005A94B0, 01 5.10.
         """
         return self.get_offset(p).magnitude()
+
+    def get_outside_cell_id(self) -> int:
+        """Return the id of the land cell under or above the origin, 0 without one; changes nothing.
+
+        retail: Position::get_outside_cell_id 0x004527B0, 10 2.10.
+        """
+        _, cell_id = adjust_to_outside(self.objcell_id, self.frame.origin.copy())
+        return cell_id
 
 
 def _to_block(f: Frame, v: Vector3) -> tuple[float, float, float]:

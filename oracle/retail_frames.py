@@ -1,6 +1,6 @@
 """Which function of retail is running: the answer is on the interpreter's stack.
 
-A function of the port stands for one of retail if its docstring names retail's address. Parts of such
+A function of the port stands for one of retail if its docstring names that and its address. Parts of such
 a function, inlined setters and whatever is put in their place count as the function that calls them.
 """
 
@@ -17,39 +17,57 @@ OUTSIDE: Final = "outside"
 """Stands for the caller where no function of retail is running: what prepares a transition wrote."""
 
 _PACKAGE: Final = "oracle."
-_SOURCE: Final = re.compile(r"\bretail: .*\b0x[0-9A-F]{8}\b")
+_SOURCE: Final = re.compile(r"\bretail: (?:\w+::)+([^\s(]+).*\b0x[0-9A-F]{8}\b")
 _SETTER_MODULES: Final = frozenset({"oracle.vector", "oracle.plane", "oracle.collision_info"})
 """Their functions change nothing but the object they belong to: who calls them is of interest."""
-_SETTERS: Final = frozenset({("oracle.sphere_path", "set_walkable")})
+_SETTERS: Final = frozenset(
+    {
+        ("oracle.sphere_path", "set_walkable"),
+        ("oracle.transition", "init_contact_plane"),
+        ("oracle.transition", "init_last_known_contact_plane"),
+        ("oracle.transition", "init_sliding_normal"),
+    }
+)
+"""Functions of other modules that only write what they are given."""
 
 
-def running(frame: FrameType) -> tuple[str, FrameType]:
-    """Find the innermost function of retail above a frame, which is not looked at itself.
+def statement_of(frame: FrameType) -> FrameType:
+    """Return the frame that is one and the same for all that one statement writes.
 
-    Returns
-    -------
-    str
-        Its name, or `OUTSIDE`.
-    FrameType
-        The outermost frame below it, which is one and the same for all that one call of a setter does.
-        Without a function of retail, the outermost frame of the port.
+    It is the outermost setter's or, where nothing but the statement itself writes, the given one, which
+    is that of the statement's hook.
     """
-    below, above = frame, frame.f_back
-    outermost: FrameType | None = None
+    statement = frame
+    above = frame.f_back
+    while above is not None and _is_setter(above):
+        statement, above = above, above.f_back
+    return statement
+
+
+def running(frame: FrameType) -> str:
+    """Name the innermost function of retail above a frame, or `OUTSIDE`."""
+    above = frame.f_back
     while above is not None:
-        module = above.f_globals.get("__name__", "")
-        if not module.startswith(_PACKAGE):
-            outermost = outermost or below
-        elif _stands_for_retail(above.f_code, module):
-            return above.f_code.co_name, below
-        below, above = above, above.f_back
-    return OUTSIDE, outermost or below
+        name = None if _is_setter(above) else _retail_name(above.f_code, _module(above))
+        if name is not None:
+            return name
+        above = above.f_back
+    return OUTSIDE
+
+
+def _module(frame: FrameType) -> str:
+    module: str = frame.f_globals.get("__name__", "")
+    return module
+
+
+def _is_setter(frame: FrameType) -> bool:
+    module = _module(frame)
+    return module in _SETTER_MODULES or (module, frame.f_code.co_name) in _SETTERS
 
 
 @cache
-def _stands_for_retail(code: CodeType, module: str) -> bool:
-    """Tell by the docstring, which the compiler puts first among the constants."""
-    if module in _SETTER_MODULES or (module, code.co_name) in _SETTERS:
-        return False
-    docstring = code.co_consts[0] if code.co_consts else None
-    return isinstance(docstring, str) and _SOURCE.search(docstring) is not None
+def _retail_name(code: CodeType, module: str) -> str | None:
+    """Read the docstring, which the compiler puts first among the constants."""
+    docstring = code.co_consts[0] if module.startswith(_PACKAGE) and code.co_consts else None
+    found = _SOURCE.search(docstring) if isinstance(docstring, str) else None
+    return found and found[1]

@@ -1,17 +1,20 @@
-"""CSphere: a sphere, moving or bounding."""
+"""CSphere: a sphere, moving, bounding or in the way."""
 
 from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
+from oracle import sphere_obstacle, sphere_responses
 from oracle.arithmetic import f32
 from oracle.constants import EPS
 from oracle.enums import TransitionState
-from oracle.vector import Vector3
+from oracle.vector import Vector3, scaled
 
 if TYPE_CHECKING:
     from oracle.collision_info import CollisionInfo
+    from oracle.position import Position
     from oracle.sphere_path import SpherePath
+    from oracle.transition import Transition
 
 
 class Sphere:
@@ -46,6 +49,42 @@ class Sphere:
         rs = other.radius + self.radius
         gap = ((dx * dx + dy * dy) + dz * dz) - rs * rs
         return gap < EPS
+
+    def intersects_sphere_at(
+        self, p: Position, scale: float, transition: Transition, *, is_creature: bool
+    ) -> TransitionState:
+        """Test the path against this sphere of an object's setup (object space, metres).
+
+        Parameters
+        ----------
+        p : Position
+            The object's.
+        scale : float
+            The object's.
+        transition : Transition
+            All state, in and out.
+        is_creature : bool
+            Whether the object is a creature or a missile; one does not stand on those.
+
+        Notes
+        -----
+        retail: CSphere::intersects_sphere (local form) 0x00537FD0, 07 9.
+        """
+        # 07 9.1
+        radius = f32(scale * self.radius)
+        v = scaled(scale, self.center)
+        # 07 9.2
+        center = transition.sphere_path.check_pos.localtoglobal(p, v)
+        # 07 9.3
+        return Sphere(center, radius).intersects_sphere(transition, is_creature=is_creature)
+
+    intersects_sphere = sphere_obstacle.intersects_sphere
+    step_sphere_down = sphere_responses.step_sphere_down
+    step_sphere_up = sphere_responses.step_sphere_up
+    slide_sphere_along = sphere_responses.slide_sphere_along
+    slide_sphere_off = sphere_responses.slide_sphere_off
+    land_on_sphere = sphere_responses.land_on_sphere
+    collide_with_point = sphere_responses.collide_with_point
 
     def slide_sphere(
         self, path: SpherePath, collisions: CollisionInfo, normal: Vector3, curr_center: Vector3

@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING
 
 from oracle.arithmetic import f32
 from oracle.enums import InsertType, TransitionState
-from oracle.land_defs import get_block_offset
+from oracle.land_defs import FIRST_INTERIOR_CELL, get_block_offset
 from oracle.position import Position
 from oracle.sphere import Sphere
 from oracle.vector import Vector3
@@ -19,8 +19,6 @@ if TYPE_CHECKING:
     from oracle.object_info import ObjectInfo
     from oracle.polygon import Polygon
 
-FIRST_INTERIOR_CELL = 0x100
-"""Low words of cell ids from here on are interior cells (09, introduction)."""
 MAX_SPHERES = 2
 """A path carries at most this many spheres (04 2.3)."""
 

@@ -1,4 +1,4 @@
-"""The trace of BSP-tree calls: a letter opens a call, the digit of its result closes it.
+"""The trace of collision calls: a letter opens a call, the digit of its result closes it.
 
 ``K`` may contain nested calls: ``KD3D1P11`` is a contact call, inside it a step down that adjusted, one
 that found nothing, a placement test that passed, and then the contact call returned OK. The trace tells
@@ -29,11 +29,35 @@ LANDING: Final = "L"
 CONTACT: Final = "K"
 PATH_CLIPPED: Final = "M"
 AIRBORNE: Final = "A"
+SPHERE: Final = "S"
+CYLINDER: Final = "C"
+TERRAIN: Final = "T"
+BUILDING: Final = "B"
 
 
 def initial_placement(_transition: Transition) -> str:
     """Return the letter of ``BSPTree.placement_insert``."""
     return INITIAL_PLACEMENT
+
+
+def sphere_test(_transition: Transition) -> str:
+    """Return the letter of ``Sphere.intersects_sphere``."""
+    return SPHERE
+
+
+def cylinder_test(_transition: Transition) -> str:
+    """Return the letter of ``CylSphere.intersects_sphere``."""
+    return CYLINDER
+
+
+def terrain(_transition: Transition) -> str:
+    """Return the letter of a land cell's test of the triangle, or of the sea, under the mover."""
+    return TERRAIN
+
+
+def building(_transition: Transition) -> str:
+    """Return the letter of ``BuildingObj.find_building_collisions``."""
+    return BUILDING
 
 
 def dispatch(transition: Transition) -> str:

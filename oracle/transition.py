@@ -12,9 +12,9 @@ from oracle import (
     transition_validate,
 )
 from oracle.cell_array import CellArray
+from oracle.cell_list import find_cell_list_for_path
 from oracle.collision_info import CollisionInfo
 from oracle.enums import InsertType, TransitionState
-from oracle.obj_cell import find_cell_list_for_path
 from oracle.object_info import ObjectInfo
 from oracle.sphere_path import SpherePath
 

@@ -10,9 +10,8 @@ from typing import TYPE_CHECKING
 from oracle.arithmetic import f32
 from oracle.constants import SMALL_STEP, Z_LANDING
 from oracle.enums import CONTACT_OI, ON_WALKABLE_OI, InsertType, TransitionState
-from oracle.land_defs import adjust_to_outside
+from oracle.land_defs import FIRST_INTERIOR_CELL, adjust_to_outside
 from oracle.ref import Ref
-from oracle.sphere_path import FIRST_INTERIOR_CELL
 
 if TYPE_CHECKING:
     from oracle.obj_cell import ObjCell

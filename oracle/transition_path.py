@@ -8,10 +8,10 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from oracle.arithmetic import ceil, divide, f32, floor, sqrt
+from oracle.cell_list import find_cell_list_for_path
 from oracle.constants import EPS, EPS2
 from oracle.enums import FREE_ROTATE_OI, IS_VIEWER_OI, PATH_CLIPPED_OI, InsertType, TransitionState
 from oracle.land_defs import get_block_offset
-from oracle.obj_cell import find_cell_list_for_path
 from oracle.vector import Vector3
 
 if TYPE_CHECKING:

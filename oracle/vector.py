@@ -64,6 +64,13 @@ class Vector3:
         self.z = f32(inv * self.z)
         return 0
 
+    def divide_by(self, divisor: float) -> None:
+        """Multiply in place by the reciprocal, which stays a register (operator/=, 07 0.5)."""
+        inv = divide(1.0, divisor)
+        self.x = f32(inv * self.x)
+        self.y = f32(inv * self.y)
+        self.z = f32(inv * self.z)
+
     def get_heading(self) -> float:
         """Return the heading of the horizontal part, degrees from north clockwise, as a register.
 
@@ -96,6 +103,24 @@ class Vector3:
         retail: AC1Legacy::Vector3::operator!= 0x0045F9F0, 04 3.
         """
         return abs(self.x - other.x) > EPS or abs(self.y - other.y) > EPS or abs(self.z - other.z) > EPS
+
+
+def minus(a: Vector3, b: Vector3) -> Vector3:
+    """Return the difference, each component stored.
+
+    retail: AC1Legacy::Vector3::operator- 0x004524C0, 07 0.5.
+    """
+    return Vector3(f32(a.x - b.x), f32(a.y - b.y), f32(a.z - b.z))
+
+
+def plus(a: Vector3, b: Vector3) -> Vector3:
+    """Return the sum, each component stored (operator+, 07 0.5)."""
+    return Vector3(f32(a.x + b.x), f32(a.y + b.y), f32(a.z + b.z))
+
+
+def scaled(factor: float, v: Vector3) -> Vector3:
+    """Return a multiple, each component stored; the factor is a float32 (operator*, 07 0.5)."""
+    return Vector3(f32(factor * v.x), f32(factor * v.y), f32(factor * v.z))
 
 
 def dot_x(a: Vector3, b: Vector3) -> float:

@@ -5,7 +5,8 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from oracle.clock import Clock
-from oracle.sphere_path import FIRST_INTERIOR_CELL
+from oracle.land_defs import FIRST_INTERIOR_CELL
+from oracle.landscape import Landscape
 
 if TYPE_CHECKING:
     from oracle.env_cell import EnvCell
@@ -14,12 +15,14 @@ if TYPE_CHECKING:
 
 
 class World:
-    """Interior cells by id, and what ticks share. Outdoor cells are not part of it yet (10).
+    """Interior cells by id, the landscape, and what ticks share.
 
     Attributes
     ----------
     cells : dict of int to EnvCell
-        The loaded cells.
+        The loaded interior cells.
+    landscape : Landscape
+        The loaded landblocks; none at first.
     clock : Clock
         The time, for all objects of the world.
     player : PhysicsObj or None
@@ -28,20 +31,33 @@ class World:
         Whether the object maintainer runs: then objects far from the player are deactivated (06 QT-2).
     """
 
-    __slots__ = ("cells", "clock", "maintainer_active", "player")
+    __slots__ = ("cells", "clock", "landscape", "maintainer_active", "player")
 
     def __init__(self) -> None:
         self.cells: dict[int, EnvCell] = {}
+        self.landscape = Landscape({})
         self.clock = Clock()
         self.player: PhysicsObj | None = None
         self.maintainer_active = 0
 
     def add_cell(self, cell: EnvCell) -> None:
-        """Load a cell."""
+        """Load an interior cell.
+
+        Raises
+        ------
+        ValueError
+            The id is that of a land cell: those come with their landblocks.
+        """
+        if not cell.is_interior:
+            message = f"{cell!r} is not an interior cell"
+            raise ValueError(message)
         self.cells[cell.id] = cell
 
     def get_visible(self, cell_id: int) -> ObjCell | None:
-        """Return the cell with this id if it is loaded; never loads (09 2)."""
+        """Return the cell with this id if it is loaded; never loads.
+
+        retail: CObjCell::GetVisible 0x0052AD40, 09 2.
+        """
         if (cell_id & 0xFFFF) < FIRST_INTERIOR_CELL:
-            return None
+            return self.landscape.get_landcell(cell_id)
         return self.cells.get(cell_id)

@@ -14,13 +14,15 @@ from typing import TYPE_CHECKING, Any, Final
 
 from oracle.collision_info import CollisionInfo
 from oracle.enums import TransitionState
+from oracle.obj_cell import ObjCell
 from oracle.object_info import ObjectInfo
 from oracle.plane import Plane
-from oracle.retail_frames import OUTSIDE, running
+from oracle.polygon import Polygon
+from oracle.retail_frames import OUTSIDE, running, statement_of
 from oracle.sphere_path import SpherePath
 from oracle.transition import Transition
 from oracle.vector import Vector3
-from oracle.writes import BSP, FIELDS, TOPICS, BspCall, Field, Write, WriteTrace, unchanged
+from oracle.writes import BSP, FIELDS, TOPICS, BspCall, Field, Write, WriteTrace
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Collection, Iterator
@@ -114,16 +116,21 @@ class _Pending:
     field: Field
     place: _Place
     attribute: str
-    before: Value
+    before: Any
     caller: str
     call: BspCall | None
     foot: Numbers | None
 
-    def finished(self) -> Write:
-        """Return the write as it is now."""
+    def finished(self) -> Write | None:
+        """Return the write as it is now; None if nothing has changed.
+
+        That a mover comes to be in its first cell is no transit.
+        """
         after = _snapshot(getattr(self.place.part, self.attribute))
-        number = self.place.watched.number
-        return Write(self.field, self.before, after, self.caller, number, self.call, self.foot)
+        if _unchanged(self.before, after) or (isinstance(after, ObjCell) and self.before is None):
+            return None
+        values = _value(self.before), _value(after)
+        return Write(*self.field, *values, self.caller, self.place.watched.number, self.call, self.foot)
 
 
 class _Letters(list[str]):
@@ -208,7 +215,7 @@ class _Recorder:
         """Take the opening of a BSP call."""
         self._settle()
         frame = currentframe()
-        caller = OUTSIDE if frame is None else running(frame)[0]
+        caller = OUTSIDE if frame is None else running(frame)
         call = BspCall(letter, caller, watched.number)
         watched.calls.append(call)
         if self._calls_asked:
@@ -240,7 +247,7 @@ class _Recorder:
         watched_field = self._fields.get(attribute)
         if watched_field is None:
             return
-        caller, statement = running(frame)
+        statement = statement_of(frame)
         if statement is not self._statement:
             self._settle()
             self._statement = statement
@@ -252,7 +259,7 @@ class _Recorder:
                 place,
                 attribute,
                 _snapshot(getattr(place.part, attribute)),
-                caller,
+                running(frame),
                 calls[-1] if calls else None,
                 _foot(place.watched.transition.sphere_path),
             )
@@ -260,7 +267,7 @@ class _Recorder:
     def _settle(self) -> None:
         """Make writes of what is pending, of that which has changed."""
         writes = [pending.finished() for pending in self._pending.values()]
-        self.trace.entries += [write for write in writes if not unchanged(write.before, write.after)]
+        self.trace.entries += [write for write in writes if write is not None]
         self._pending.clear()
         self._statement = None
 
@@ -269,13 +276,25 @@ def _foot(path: SpherePath) -> Numbers | None:
     return _floats(path.global_low_point) if path.check_pos.objcell_id else None
 
 
-def _snapshot(value: Any) -> Value:
+def _snapshot(value: Any) -> Any:
+    """Return a copy of what may change in place."""
     if isinstance(value, Plane):
         return (*_floats(value.N), _float(value.d))
-    if isinstance(value, Vector3):
-        return _floats(value)
-    unstructured: Value = value
-    return unstructured
+    return _floats(value) if isinstance(value, Vector3) else value
+
+
+def _unchanged(before: Any, after: Any) -> bool:
+    """Tell whether two values have the same bits; polygons and cells are only the same as themselves."""
+    if isinstance(before, tuple) and isinstance(after, tuple):
+        return [v.hex() for v in before] == [v.hex() for v in after]
+    return before is after or bool(before == after)
+
+
+def _value(snapshot: Any) -> Value:
+    if isinstance(snapshot, Polygon):
+        return snapshot.poly_id
+    value: Value = snapshot.id if isinstance(snapshot, ObjCell) else snapshot
+    return value
 
 
 def _floats(v: Vector3) -> Numbers:

@@ -6,15 +6,20 @@ from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Any, Final
 from weakref import WeakKeyDictionary
 
+from conformance.candidates.kept_worlds import KeptWorlds
 from conformance.candidates.oracle_candidate import OracleCandidate
-from conformance.candidates.oracle_ops import geometry
+from conformance.candidates.oracle_ops import geometry, world
 from conformance.candidates.replacements import Method, replaced
 
 if TYPE_CHECKING:
-    from collections.abc import Callable
+    from collections.abc import Callable, Collection, Mapping
+    from contextlib import AbstractContextManager
 
     from conformance.candidates.replacements import Replacement
     from conformance.query import Outcome, Query
+    from conformance.scenes.model import Geometry
+    from oracle.world import World
+    from oracle.writes import WriteTrace
 
 BUG_PREFIX: Final = "bug:"
 """What the name of such a candidate begins with."""
@@ -54,16 +59,24 @@ class KnownBug:
     rated: bool = False
 
 
+def _build_world(record: Mapping[str, Any], geometries: Mapping[str, Geometry]) -> World:
+    """Make a world with what stands for the oracle's builder now."""
+    return world.build_world(record, geometries)
+
+
 class BugCandidate:
     """The oracle with one mistake.
 
-    It has its own polygons and trees: a mistake may concern how they are made.
+    It has its own polygons, trees and worlds: a mistake may concern how they are made.
     """
 
     def __init__(self, bug: KnownBug) -> None:
         self.bug = bug
         self._oracle = OracleCandidate()
-        self._own_geometry = Method(geometry, "CACHE", _always(WeakKeyDictionary()))
+        self._own = (
+            Method(geometry, "CACHE", _always(WeakKeyDictionary())),
+            Method(world, "CACHE", _always(KeptWorlds(_build_world))),
+        )
 
     def __repr__(self) -> str:
         return f"BugCandidate({self.bug.id!r}: {self.bug.mistake})"
@@ -75,8 +88,12 @@ class BugCandidate:
 
     def answer(self, query: Query) -> Outcome:
         """Perform one operation, wrongly where the mistake matters."""
-        with replaced((self._own_geometry, *self.bug.replacements)):
+        with replaced((*self._own, *self.bug.replacements)):
             return self._oracle.answer(query)
+
+    def recording(self, topics: Collection[str]) -> AbstractContextManager[WriteTrace]:
+        """Record what every transition that is made in the block writes."""
+        return self._oracle.recording(topics)
 
 
 def _always(value: Any) -> Callable[[Any], Any]:

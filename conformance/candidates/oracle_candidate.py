@@ -7,20 +7,27 @@ from typing import TYPE_CHECKING, Final
 from conformance.candidates.oracle_ops import (
     body_walk,
     bsp_ops,
+    cell_ops,
     gate_ops,
     math_ops,
+    object_ops,
     polygon_ops,
     state_ops,
+    terrain_ops,
     tick_ops,
     walk_ops,
+    world_ops,
 )
 from conformance.candidates.table import TableCandidate
-from oracle.errors import NotPortedError
+from oracle.errors import NotPortedError, UndeterminedError
+from oracle.write_trace import recording
 
 if TYPE_CHECKING:
-    from collections.abc import Callable
+    from collections.abc import Callable, Collection
+    from contextlib import AbstractContextManager
 
     from conformance.query import Fields, Query
+    from oracle.writes import WriteTrace
 
 OPS: Final[dict[str, Callable[[Query], Fields]]] = {
     **math_ops.OPS,
@@ -31,6 +38,10 @@ OPS: Final[dict[str, Callable[[Query], Fields]]] = {
     **gate_ops.OPS,
     **body_walk.OPS,
     **walk_ops.OPS,
+    **object_ops.OPS,
+    **terrain_ops.OPS,
+    **cell_ops.OPS,
+    **world_ops.OPS,
 }
 """Every operation that the oracle performs."""
 
@@ -41,4 +52,8 @@ class OracleCandidate(TableCandidate):
     name = "oracle"
     operations = OPS
     missing = "not ported yet"
-    unable = (NotPortedError,)
+    unable = (NotPortedError, UndeterminedError)
+
+    def recording(self, topics: Collection[str]) -> AbstractContextManager[WriteTrace]:
+        """Record what every transition that is made in the block writes."""
+        return recording(None, topics)

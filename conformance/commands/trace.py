@@ -13,13 +13,14 @@ from conformance.commands.options import UsageError, add_candidate_option, candi
 if TYPE_CHECKING:
     from collections.abc import Collection
 
-    from conformance.candidates.base import Candidate
     from conformance.case import Case
     from conformance.query import Outcome, Query
+    from conformance.traced import Traceable
 
-HELP: Final = "run a case on the oracle and show every write of contact planes, walkables and state"
+HELP: Final = "run a case and show every write of contact planes, walkables, state and cells, and by whom"
 EXAMPLES: Final = (
     "conformance trace origin-step-down-touching",
+    "conformance trace walk-cellar-descent --candidate engine --trace cell-transit",
     "conformance trace origin-step-down-touching --candidate bug:cell-origin --trace cp-write,bsp",
     "conformance trace my-cases/ramp.yaml::my-first-ramp --pose 3",
 )
@@ -32,7 +33,8 @@ def configure(parser: argparse.ArgumentParser) -> None:
     parser.add_argument(
         "--trace",
         metavar="TOPICS",
-        help="comma-separated: cp-write, lkp-write, walkable, sliding, state, bsp (default: all)",
+        help="comma-separated: cp-write, lkp-write, walkable, sliding, state, cell-transit, bsp "
+        "(default: all)",
     )
     parser.add_argument(
         "--pose",
@@ -51,16 +53,15 @@ def run(args: argparse.Namespace) -> int:
     """Print the writes and their summary, and return the exit code: 1 if the case fails to run."""
     from conformance.console import make_console
     from conformance.report.traces import summary_lines, trace_lines
-    from oracle.write_trace import recording
+    from conformance.traced import answer_traced
 
     topics = _topics(args.trace)
     candidate = _traceable(args)
     query = _query(_find_case(args.case), args.pose)
-    with recording(None, topics) as trace:
-        outcome = candidate.answer(query)
+    outcome, written = answer_traced(candidate, query, topics)
     console = make_console()
     console.print(f"{query.label} ({query.op}, {candidate.name})")
-    for line in (*trace_lines(trace, with_foot=args.foot), "summary:", *summary_lines(trace)):
+    for line in (*trace_lines(written, with_foot=args.foot), "summary:", *summary_lines(written)):
         console.print(line)
     text, code = _ending(outcome)
     console.print(text)
@@ -75,24 +76,22 @@ def _pose(text: str) -> int:
 
 
 def _topics(text: str | None) -> tuple[str, ...]:
+    from conformance.traced import TopicsError, parse_topics
     from oracle.writes import TOPICS
 
-    if text is None:
-        return TOPICS
-    topics = tuple(topic.strip() for topic in text.split(","))
-    for topic in topics:
-        if topic not in TOPICS:
-            raise UsageError(f"unknown topic {topic!r}.{_hint(topic, TOPICS)} There are: {', '.join(TOPICS)}")
-    return topics
+    try:
+        return TOPICS if text is None else parse_topics(text)
+    except TopicsError as error:
+        raise UsageError(str(error)) from error
 
 
-def _traceable(args: argparse.Namespace) -> Candidate:
-    from conformance.candidates.bug_candidate import BugCandidate
-    from conformance.candidates.oracle_candidate import OracleCandidate
+def _traceable(args: argparse.Namespace) -> Traceable:
+    from conformance.traced import Traceable
 
     candidate = candidate_from(args)
-    if not isinstance(candidate, OracleCandidate | BugCandidate):
-        raise UsageError(f"{candidate.name} cannot be traced; the oracle and the known bugs (bug:NAME) can")
+    if not isinstance(candidate, Traceable):
+        traceable = "oracle, engine and the known bugs (bug:NAME)"
+        raise UsageError(f"{candidate.name} cannot be traced; {traceable} can")
     return candidate
 
 

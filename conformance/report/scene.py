@@ -13,7 +13,10 @@ if TYPE_CHECKING:
     from conformance.query import Query
 
 _SHOWN_APART: Final = frozenset(
-    {"geometry", "poly", "pose", "cells", "world", "mover", "from", "to", "path", "start", "body"}
+    {
+        *("geometry", "poly", "pose", "cells", "world", "mover", "from", "to", "path", "start", "body"),
+        *("objects", "object"),
+    }
 )
 _UNSAID: Final = frozenset({"as", "begin_cell", "placement_allows_sliding", "ticks", "seed"})
 _IDENTITY: Final = (1.0, 0.0, 0.0, 0.0)
@@ -26,7 +29,7 @@ def scene_line(query: Query) -> str:
     parts += [
         f"{key} {format_block(value)}"
         for key, value in inputs.items()
-        if key not in _SHOWN_APART | _UNSAID and not _is_default(key, value)
+        if key not in _SHOWN_APART | _UNSAID and not _is_shown(key, value)
     ]
     return "; ".join(parts)
 
@@ -43,7 +46,17 @@ def _places(query: Query) -> Iterable[str]:
         what = f"{inputs.get('as', '')} {_geometry(query, inputs['geometry'])}{polygon}".strip()
         yield f"{what} {_pose(inputs['pose'])}" if "pose" in inputs else what
     elif "world" in inputs:
-        yield f"world {inputs['world']['name']}"
+        yield f"world {inputs['world']['name']} {_contents(inputs['world'])}"
+    if isinstance(cell := inputs.get("cell"), dict):
+        yield f"cell {_geometry(query, cell['geometry'])} {_pose(cell['pose'])}"
+    for thing in (*inputs.get("objects", ()), *filter(None, [inputs.get("object")])):
+        yield f"object 0x{thing['id']:08X} {_pose(thing['pose'])}"
+
+
+def _contents(world: Mapping[str, Any]) -> str:
+    counts = [(len(world[key]), key) for key in ("landblocks", "cells", "buildings", "objects")]
+    held = [f"{count} {key if count > 1 else key[:-1]}" for count, key in counts if count]
+    return f"with {', '.join(held)}" if held else "with nothing in it"
 
 
 def _geometry(query: Query, name: str | None) -> str:
@@ -88,5 +101,6 @@ def _path(inputs: Mapping[str, Any]) -> Iterable[str]:
         yield "path " + ", ".join(said)
 
 
-def _is_default(key: str, value: Any) -> bool:
-    return key == "scale" and value == 1.0
+def _is_shown(key: str, value: Any) -> bool:
+    """Tell whether an input needs no words, or has them already."""
+    return (key == "scale" and value == 1.0) or (key == "cell" and isinstance(value, dict))

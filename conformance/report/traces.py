@@ -4,34 +4,35 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Final
 
+from conformance.trace_text import NO_CALL, line_of, summarise
 from oracle.enums import TransitionState
-from oracle.writes import NO_CALL, UNFINISHED
+from oracle.writes import UNFINISHED
 
 if TYPE_CHECKING:
     from collections.abc import Iterable, Iterator, Sequence
 
     from conformance.trace_log import LogReport, Rule, Tally
-    from oracle.writes import WriteTrace
+    from conformance.trace_text import Entry
 
 _RESULTS: Final = (*(state.name for state in TransitionState if state), NO_CALL, UNFINISHED)
 _MOST_PLANES: Final = 10
 _MOST_CALLERS: Final = 40
 
 
-def trace_lines(trace: WriteTrace, *, with_foot: bool) -> Iterator[str]:
+def trace_lines(entries: Sequence[Entry], *, with_foot: bool) -> Iterator[str]:
     """Write one line an entry and, where there are several transitions, one at the start of each."""
-    several = len({entry.transition for entry in trace.entries}) > 1
+    several = len({entry.transition for entry in entries}) > 1
     current = 0
-    for entry in trace.entries:
+    for entry in entries:
         if several and entry.transition != current:
             yield f"transition {entry.transition}:"
         current = entry.transition
-        yield entry.line_with_foot if with_foot else entry.line
+        yield line_of(entry, with_foot=with_foot)
 
 
-def summary_lines(trace: WriteTrace) -> list[str]:
+def summary_lines(entries: Sequence[Entry]) -> list[str]:
     """Write a table: one row for each topic and caller, one column for each state that occurs."""
-    summary = trace.summary()
+    summary = summarise(entries)
     if not summary:
         return ["  no writes"]
     columns = [name for name in _RESULTS if any(counts[name] for counts in summary.values())]

@@ -1,18 +1,22 @@
-"""Queries moved rigidly: the same scene, somewhere else in the landblock.
+"""Queries moved: the same scene, somewhere else in the landblock or on the map.
 
 A moved query is a new query: its numbers are rounded to float32, and world z keeps being up, so a
 tilted scene asks something else than a level one. What must stay is that two engines agree.
+
+Where there is no land a query moves rigidly, however it is turned. A world with land moves by whole
+landblocks only: its heights stand on a grid that points north.
 """
 
 from __future__ import annotations
 
 import dataclasses
-import random
+import functools
 from types import MappingProxyType
 from typing import TYPE_CHECKING, Any, Final
 
-from conformance.scenes.algebra import ORIGIN, round_point
-from conformance.scenes.model import Pose
+from conformance.outputs import OUTPUTS
+from conformance.scenes.block_shifts import has_land, room_to_shift, shift_inputs
+from conformance.scenes.random_poses import seeded_poses, seeded_shifts
 from conformance.scenes.rigid import (
     IDENTITY,
     Transform,
@@ -22,49 +26,97 @@ from conformance.scenes.rigid import (
     move_pose,
     move_rotation,
 )
-from conformance.scenes.rotations import round_quaternion
-from oracle.constants import BLOCK_EDGE
+from conformance.scenes.rigid_inputs import move_inputs
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Iterator, Mapping, Sequence
+    from collections.abc import Mapping
 
     from conformance.query import Query
-    from conformance.scenes.model import Quaternion, Vec3
+    from conformance.scenes.random_poses import Shift
 
 __all__ = [
     "IDENTITY",
     "MOVABLE_OPS",
+    "NOT_MOVABLE",
     "Transform",
     "move_direction",
     "move_plane",
     "move_point",
     "move_pose",
     "move_rotation",
+    "moved_queries",
     "seeded_poses",
+    "seeded_shifts",
+    "shift_query",
     "transform_inputs",
     "transform_query",
 ]
 
-NEAR: Final = 200.0
-"""Largest ordinary translation along an axis, metres: a landblock and a bit."""
-BLOCKS: Final = 10
-"""Largest block-scale translation, landblocks: up to 2 km float32 still resolves retail's EPS."""
-HALF_ROOT: Final = 0.7071067690849304
-"""Square root of one half, float32: cosine and sine of half a quarter turn."""
+_OWN_FRAME: Final = "in the frame of its geometry or of nothing: no place to move from"
+_TWO_PLACES: Final = "about two frames given whole: moved together they ask the same"
+_IDS: Final = "about ids and map coordinates themselves"
+_ONE_BODY: Final = "a body alone, whose tick reads no scene"
 
-MOVABLE_OPS: Final = frozenset(
+NOT_MOVABLE: Final[Mapping[str, str]] = MappingProxyType(
     {
-        "adjust_offset",
-        "body_walk",
-        "cache_localspace_sphere",
-        "cliff_slide",
-        "find_collisions",
-        "slide_sphere",
-        "transition",
-        "walk",
+        **{op: _OWN_FRAME for op in OUTPUTS if op.startswith(("polygon_", "bsp_"))},
+        **dict.fromkeys(
+            (
+                "find_time_of_collision",
+                "frame_cache",
+                "frame_set_rotate",
+                "interpolate_rotation",
+                "normalize_check_small",
+                "snap_to_plane",
+            ),
+            _OWN_FRAME,
+        ),
+        **{op: _TWO_PLACES for op in OUTPUTS if op.startswith(("frame_local", "frame_global", "position_"))},
+        **dict.fromkeys(("frame_is_equal", "plane_localtoglobal"), _TWO_PLACES),
+        **{op: _IDS for op in OUTPUTS if op.startswith("landdefs_")},
+        **dict.fromkeys(("block_offset", "terrain_block", "terrain_split"), _IDS),
+        **dict.fromkeys(
+            (
+                "calc_acceleration",
+                "calc_friction",
+                "clear_transient_states",
+                "handle_all_collisions",
+                "seed",
+                "set_local_velocity",
+                "set_on_walkable",
+                "set_position",
+                "set_velocity",
+                "update_object_gates",
+                "update_physics",
+                "update_position",
+            ),
+            _ONE_BODY,
+        ),
     }
 )
-"""Operations that happen somewhere in a landblock; the others are in their own frame."""
+"""Why an operation has no other poses."""
+MOVABLE_OPS: Final = frozenset(OUTPUTS) - frozenset(NOT_MOVABLE)
+"""Operations that happen somewhere in a scene."""
+
+
+def moved_queries(query: Query, count: int, seed: int) -> list[Query]:
+    """Return a query in other places: turned and moved, or on land shifted by whole landblocks.
+
+    Parameters
+    ----------
+    query : Query
+        Of one of `MOVABLE_OPS`, or of another operation, which has none.
+    count : int
+        How many.
+    seed : int
+        Of the motions.
+    """
+    if query.op not in MOVABLE_OPS:
+        return []
+    if has_land(query.inputs):
+        shifts = seeded_shifts(count, seed, room_to_shift(query.inputs))
+        return [shift_query(query, shift) for shift in shifts]
+    return [transform_query(query, transform) for transform in _poses(count, seed)]
 
 
 def transform_query(query: Query, transform: Transform) -> Query:
@@ -73,7 +125,7 @@ def transform_query(query: Query, transform: Transform) -> Query:
     Raises
     ------
     ValueError
-        The operation is not one of `MOVABLE_OPS`.
+        The operation is not one of `MOVABLE_OPS`, or its world has land.
     """
     inputs = transform_inputs(query.op, query.inputs, transform)
     label = f"{query.label} {transform.label}".lstrip()
@@ -81,185 +133,26 @@ def transform_query(query: Query, transform: Transform) -> Query:
 
 
 def transform_inputs(op: str, inputs: Mapping[str, Any], transform: Transform) -> dict[str, Any]:
-    """Return the inputs of a query moved rigidly, as a new mapping.
-
-    Parameters
-    ----------
-    op : str
-        One of `MOVABLE_OPS`.
-    inputs : mapping
-        The input blocks of FORMAT.md; not changed.
-    transform : Transform
-        In the landblock's frame.
-
-    Returns
-    -------
-    dict
-        Poses of cells and statics, start and end, seeded planes and normals are moved; mover, path
-        flags, scales and geometry stay. Geometry is shared by name and lives in its own frame.
+    """Return the inputs of a query moved rigidly, as a new mapping; see `move_inputs`.
 
     Raises
     ------
     ValueError
-        The operation has no place in a landblock.
+        The operation has no place in a landblock, or its world has land.
     """
     if op not in MOVABLE_OPS:
-        raise ValueError(f"{op} has no pose to move; only {', '.join(sorted(MOVABLE_OPS))} have")
-    return {
-        key: _MOVED[key](value, transform) if key in _MOVED and value is not None else value
-        for key, value in inputs.items()
-    }
+        raise ValueError(f"{op} has no pose to move: {NOT_MOVABLE.get(op, 'unknown operation')}")
+    if has_land(inputs):
+        raise ValueError("a world with land moves by whole landblocks only: shift_query")
+    return move_inputs(inputs, transform)
 
 
-def _pose(record: Mapping[str, Any], transform: Transform) -> dict[str, Any]:
-    return move_pose(transform, Pose.from_record(record)).to_record()
+def shift_query(query: Query, shift: Shift) -> Query:
+    """Return a query shifted by whole landblocks, east and north; its label says by how many."""
+    label = f"{query.label} shifted by {shift[0]} landblocks east, {shift[1]} north".lstrip()
+    return dataclasses.replace(query, inputs=shift_inputs(query.inputs, shift), label=label)
 
 
-def _direction(vector: Sequence[float], transform: Transform) -> list[float]:
-    x, y, z = vector
-    return list(move_direction(transform, (x, y, z)))
-
-
-def _plane(plane: Sequence[float], transform: Transform) -> list[float]:
-    x, y, z, d = plane
-    return list(move_plane(transform, (x, y, z, d)))
-
-
-def _rotation_of(rotation: Sequence[float], transform: Transform) -> list[float]:
-    w, x, y, z = rotation
-    return list(move_rotation(transform, (w, x, y, z)))
-
-
-def _seed(seed: Mapping[str, Any], transform: Transform) -> dict[str, Any]:
-    moved = dict(seed)
-    for name in ("contact", "last_known"):
-        if seed.get(name) is not None:
-            moved[name] = {**seed[name], "plane": _plane(seed[name]["plane"], transform)}
-    if seed.get("sliding") is not None:
-        moved["sliding"] = _direction(seed["sliding"], transform)
-    return moved
-
-
-def _cells(cells: Sequence[Mapping[str, Any]], transform: Transform) -> list[dict[str, Any]]:
-    return [_placed(cell, transform) for cell in cells]
-
-
-def _placed(record: Mapping[str, Any], transform: Transform) -> dict[str, Any]:
-    """Move a cell with its statics, or a static."""
-    moved = {**record, "pose": _pose(record["pose"], transform)}
-    if "statics" in record:
-        moved["statics"] = [_placed(static, transform) for static in record["statics"]]
-    return moved
-
-
-def _body(body: Mapping[str, Any], transform: Transform) -> dict[str, Any]:
-    """Move a body; its acceleration stays, as gravity does."""
-    return _parts(body, _BODY_PARTS, transform)
-
-
-def _ticks(ticks: Sequence[Mapping[str, Any]], transform: Transform) -> list[dict[str, Any]]:
-    return [_parts(tick, _TICK_PARTS, transform) for tick in ticks]
-
-
-def _parts(
-    block: Mapping[str, Any], parts: Mapping[str, Callable[[Any, Transform], Any]], transform: Transform
-) -> dict[str, Any]:
-    """Move those parts of a block that are there."""
-    moved = {key: move(block[key], transform) for key, move in parts.items() if block.get(key) is not None}
-    return {**block, **moved}
-
-
-_TICK_PARTS: Final[Mapping[str, Callable[[Any, Transform], Any]]] = MappingProxyType(
-    {"move": _direction, "rotation": _rotation_of, "set_velocity": _direction, "omega": _direction}
-)
-"""What of a tick has a direction in the landblock; a local velocity is in the body's own frame."""
-_BODY_PARTS: Final[Mapping[str, Callable[[Any, Transform], Any]]] = MappingProxyType(
-    {
-        "position": _pose,
-        "velocity": _direction,
-        "omega": _direction,
-        "contact_plane": _plane,
-        "sliding_normal": _direction,
-    }
-)
-
-_MOVED: Final[Mapping[str, Callable[[Any, Transform], Any]]] = MappingProxyType(
-    {
-        "pose": _pose,
-        "from": _pose,
-        "to": _pose,
-        "start": _pose,
-        "cells": _cells,
-        "body": _body,
-        "seed": _seed,
-        "ticks": _ticks,
-        "normal": _direction,
-        "offset": _direction,
-        "plane": _plane,
-    }
-)
-"""How each input block moves, by its key; what is not here does not."""
-
-
-def seeded_poses(count: int, seed: int) -> list[Transform]:
-    """Return motions that take turns in kind: the same for a seed on every platform.
-
-    Rotations go identity, yaw, quarter turn, any; translations go up to `NEAR`, none, whole landblocks.
-
-    Parameters
-    ----------
-    count : int
-        How many; more of the same seed begin with the same.
-    seed : int
-        Any whole number.
-    """
-    # Only random() and arithmetic that IEEE 754 fixes: no library function may differ between platforms.
-    numbers = random.Random(seed)  # noqa: S311
-    poses = []
-    for i in range(count):
-        rotation = _rotation(i % 4, numbers)
-        poses.append(Transform(rotation, _translation((i + i // 4) % 3, numbers)))
-    return poses
-
-
-def _rotation(kind: int, numbers: random.Random) -> Quaternion:
-    if kind == 0:
-        return IDENTITY.rotation
-    if kind == 1:
-        w, z = _unit(2, numbers)
-        return round_quaternion((w, 0.0, 0.0, z))
-    if kind == 2:
-        return _quarter_turn(numbers)
-    return round_quaternion(_unit(4, numbers))
-
-
-def _quarter_turn(numbers: random.Random) -> Quaternion:
-    """Return a turn by 90, 180 or 270 degrees about one of the axes."""
-    axis = int(3 * numbers.random())
-    turns = ((HALF_ROOT, HALF_ROOT), (0.0, 1.0), (HALF_ROOT, -HALF_ROOT))
-    w, part = turns[int(3 * numbers.random())]
-    x, y, z = (part if k == axis else 0.0 for k in range(3))
-    return (w, x, y, z)
-
-
-def _translation(kind: int, numbers: random.Random) -> Vec3:
-    if kind == 0:
-        return round_point(NEAR * part for part in _signed(3, numbers))
-    if kind == 1:
-        return ORIGIN
-    x, y = (BLOCK_EDGE * round(BLOCKS * part) for part in _signed(2, numbers))
-    return (x, y, 0.0)
-
-
-def _signed(dimensions: int, numbers: random.Random) -> Iterator[float]:
-    """Yield numbers between -1 and 1."""
-    for _ in range(dimensions):
-        yield 2.0 * numbers.random() - 1.0
-
-
-def _unit(dimensions: int, numbers: random.Random) -> list[float]:
-    """Return a direction, evenly distributed: a point of the unit ball, not yet of length 1."""
-    while True:
-        point = list(_signed(dimensions, numbers))
-        if 0.0 < sum(part * part for part in point) <= 1.0:
-            return point
+@functools.cache
+def _poses(count: int, seed: int) -> list[Transform]:
+    return seeded_poses(count, seed)

@@ -104,9 +104,26 @@ def room(*, size: Sequence[float], openings: Sequence[Opening] = ()) -> Shape:
     SceneError
         An opening has no such side or reaches beyond it.
     """
+    faces = room_faces(size)
+    for i, opening in enumerate(openings):
+        if opening.side not in faces:
+            raise SceneError(f"room.openings[{i}].side", repr(opening.side), f"one of {', '.join(SIDES)}")
+    shape: Shape = []
+    for side in SIDES:
+        holes = [
+            faces[side].hole_between(*opening_corners(opening, f"room.openings[{i}]"), f"room.openings[{i}]")
+            for i, opening in enumerate(openings)
+            if opening.side == side
+        ]
+        shape += faces[side].around(holes) if holes else faces[side].whole()
+    return shape
+
+
+def room_faces(size: Sequence[float]) -> dict[str, Rectangle]:
+    """Return the sides of a room by name, in the order of `SIDES`, facing inwards; see `room`."""
     w, d, h = sizes(size, 3, "room.size")
     x, y = w / 2, d / 2
-    faces = {
+    return {
         "floor": Rectangle((-x, -y, 0.0), X, Y, w, d),
         "ceiling": Rectangle((-x, -y, h), Y, X, d, w),
         "north": Rectangle((-x, y, 0.0), X, Z, w, h),
@@ -114,18 +131,18 @@ def room(*, size: Sequence[float], openings: Sequence[Opening] = ()) -> Shape:
         "east": Rectangle((x, y, 0.0), SOUTH, Z, d, h),
         "west": Rectangle((-x, -y, 0.0), Y, Z, d, h),
     }
-    for i, opening in enumerate(openings):
-        if opening.side not in faces:
-            raise SceneError(f"room.openings[{i}].side", repr(opening.side), f"one of {', '.join(SIDES)}")
-    shape: Shape = []
-    for side in SIDES:
-        holes = [
-            faces[side].hole_between(*_opening_corners(opening, f"room.openings[{i}]"), f"room.openings[{i}]")
-            for i, opening in enumerate(openings)
-            if opening.side == side
-        ]
-        shape += faces[side].around(holes) if holes else faces[side].whole()
-    return shape
+
+
+def opening_corners(opening: Opening, path: str) -> tuple[Vec3, Vec3]:
+    """Return two opposite corners of an opening, over its side of a room about the origin; metres."""
+    half = positive(opening.width, f"{path}.width") / 2
+    tall = positive(opening.height, f"{path}.height")
+    middle, sill = finite(opening.offset, f"{path}.offset"), finite(opening.sill, f"{path}.sill")
+    if opening.side in {"floor", "ceiling"}:
+        return (middle - half, sill - tall / 2, 0.0), (middle + half, sill + tall / 2, 0.0)
+    if opening.side in {"north", "south"}:
+        return (middle - half, 0.0, sill), (middle + half, 0.0, sill + tall)
+    return (0.0, middle - half, sill), (0.0, middle + half, sill + tall)
 
 
 def hatch(
@@ -223,14 +240,3 @@ def _call(function: Callable[..., T], arguments: Mapping[str, Any], path: str) -
         if parameter.default is parameter.empty and parameter.name not in arguments:
             raise SceneError(path, f"no {parameter.name}", f"{parameter.name} to be given")
     return function(**arguments)
-
-
-def _opening_corners(opening: Opening, path: str) -> tuple[Vec3, Vec3]:
-    half = positive(opening.width, f"{path}.width") / 2
-    tall = positive(opening.height, f"{path}.height")
-    middle, sill = finite(opening.offset, f"{path}.offset"), finite(opening.sill, f"{path}.sill")
-    if opening.side in {"floor", "ceiling"}:
-        return (middle - half, sill - tall / 2, 0.0), (middle + half, sill + tall / 2, 0.0)
-    if opening.side in {"north", "south"}:
-        return (middle - half, 0.0, sill), (middle + half, 0.0, sill + tall)
-    return (0.0, middle - half, sill), (0.0, middle + half, sill + tall)

@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Annotated, Any, Literal, TypeAlias
+from types import MappingProxyType
+from typing import TYPE_CHECKING, Annotated, Any, Final, Literal, TypeAlias
 
 from pydantic import AfterValidator, BeforeValidator, Field, StringConstraints
 
@@ -15,10 +16,22 @@ from conformance.schema.values import Count, Strictly
 from conformance.source import describe, quoted
 
 if TYPE_CHECKING:
-    from collections.abc import Iterator
+    from collections.abc import Iterator, Mapping
 
     from pydantic_core import PydanticCustomError
 
+    from conformance.schema.query_base import Needs
+
+SCENE_KEYS: Final[Mapping[Needs, tuple[str, ...]]] = MappingProxyType(
+    {
+        "cells": ("cells",),
+        "geometry": ("geometry",),
+        "scene": ("cells", "terrain"),
+        "terrain": ("terrain",),
+        "": (),
+    }
+)
+"""The keys of a scene of which a query needs one."""
 SLUG = r"[a-z0-9]+(-[a-z0-9]+)*"
 Slug = Annotated[str, StringConstraints(pattern=f"^{SLUG}$")]
 Text = Annotated[str, StringConstraints(min_length=1, strip_whitespace=True)]
@@ -92,9 +105,20 @@ def check_parts(data: dict[str, Any]) -> Iterator[PydanticCustomError]:
         yield from _check_part(data, "mover", op, needed=model.mover)
         yield from _check_part(data, "geometries", "a query without 'inputs'", needed=False)
         scene = data.get("scene")
-        if model.needs and isinstance(scene, dict) and model.needs not in scene:
+        keys = SCENE_KEYS[model.needs]
+        if keys and isinstance(scene, dict) and not any(key in scene for key in keys):
             found = f"a scene with {quoted(scene) or 'nothing'}"
-            yield mistake(found, f"a scene with '{model.needs}', for {op}", at=("scene",))
+            yield mistake(found, f"a scene with {' or '.join(map(repr, keys))}, for {op}", at=("scene",))
+        elif op == "transition" and isinstance(scene, dict):
+            yield from _check_begin_cell(query, is_world=SceneModel.is_world_data(scene))
+
+
+def _check_begin_cell(query: dict[str, Any], *, is_world: bool) -> Iterator[PydanticCustomError]:
+    """Check that a transition names its begin cell, which in a world its pose does."""
+    if is_world and "begin_cell" in query:
+        yield mistake("'begin_cell' in a world", "only 'from', whose cell it is", at=("query", "begin_cell"))
+    if not is_world and "begin_cell" not in query:
+        yield mistake("no 'begin_cell'", "the key 'begin_cell'", at=("query",))
 
 
 def _check_part(data: dict[str, Any], name: str, what: str, *, needed: bool) -> Iterator[PydanticCustomError]:

@@ -6,8 +6,8 @@ from typing import Literal
 
 from pydantic import Field
 
+from conformance.schema.frames import PoseModel
 from conformance.schema.query_base import QueryModel
-from conformance.schema.scene import PoseModel
 from conformance.schema.values import CellId, Number, Plane, Quaternion, Vec3
 
 

@@ -6,10 +6,10 @@ from typing import ClassVar, Literal
 
 from pydantic import Field, model_validator
 
+from conformance.schema.frames import PoseModel
 from conformance.schema.mistakes import mistake
 from conformance.schema.mover import PathModel, SeedModel
 from conformance.schema.query_base import Needs, QueryModel
-from conformance.schema.scene import PoseModel
 from conformance.schema.values import CellId, Flag, Number, Plane, Vec3
 from conformance.source import quoted
 
@@ -60,11 +60,9 @@ class CliffSlideQuery(MoverQuery):
     plane: Plane
 
 
-class FindCollisionsQuery(MoverQuery):
-    """One collision call on the tree of the scene's only cell, or of its only static."""
+class CallQuery(MoverQuery):
+    """One collision call of a mover that goes from one place to another, or stays."""
 
-    needs: ClassVar[Needs] = "cells"
-    op: Literal["find_collisions"]
     from_: PoseModel | None = Field(None, alias="from")
     to: PoseModel | None = None
     at: PoseModel | None = Field(None, description="Both 'from' and 'to': no movement.")
@@ -72,20 +70,27 @@ class FindCollisionsQuery(MoverQuery):
     path: PathModel
 
     @model_validator(mode="after")
-    def _moves_or_stays(self) -> FindCollisionsQuery:
+    def _moves_or_stays(self) -> CallQuery:
         given = [name for name in ("from", "to", "at") if getattr(self, name.replace("from", "from_"))]
         if given not in (["from", "to"], ["at"]):
             raise mistake(quoted(given) or "no position", "'from' and 'to', or 'at'")
         return self
 
 
-class TransitionQuery(MoverQuery):
-    """One find_valid_position in the scene's cells."""
+class FindCollisionsQuery(CallQuery):
+    """One collision call on the tree of the scene's only cell, or of its only static."""
 
     needs: ClassVar[Needs] = "cells"
+    op: Literal["find_collisions"]
+
+
+class TransitionQuery(MoverQuery):
+    """One find_valid_position in the scene."""
+
+    needs: ClassVar[Needs] = "scene"
     op: Literal["transition"]
     from_: PoseModel | None = Field(alias="from", description="null for a placement.")
     to: PoseModel
-    begin_cell: CellId
+    begin_cell: CellId | None = Field(None, description="In a scene of cells; a world's is that of 'from'.")
     seed: SeedModel = SeedModel()
     placement_allows_sliding: Flag = 1

@@ -60,6 +60,9 @@ class MoverModel(Strictly):
     ethereal: Flag = 0
     step_down: Flag = Field(1, description="0 for a missile, which never looks for ground.")
     gravity: Flag = 1
+    id: Count | None = Field(None, description="Its own object id; an object with that id is not tested.")
+    missile: Flag | None = None
+    target_id: Count | None = Field(None, description="The object that a missile is aimed at.")
 
 
 class SeededPlaneModel(Strictly):

@@ -9,7 +9,14 @@ from typing import TYPE_CHECKING, Annotated, Any, Final, TypeAlias
 
 from pydantic import BeforeValidator, Discriminator, Field, Tag
 
-from conformance.schema import geometry_queries, math_queries, movement_queries, walk_queries
+from conformance.outputs import OUTPUTS
+from conformance.schema import (
+    geometry_queries,
+    math_queries,
+    movement_queries,
+    walk_queries,
+    world_queries,
+)
 from conformance.schema.mistakes import mistake
 from conformance.schema.query_base import QueryModel
 from conformance.schema.values import Strictly
@@ -38,6 +45,7 @@ QUERY_MODELS: Final = (
     *_models(geometry_queries),
     *_models(movement_queries),
     *_models(walk_queries),
+    *_models(world_queries),
 )
 
 MODEL_OF_OP: Final = {op: model for model in QUERY_MODELS for op in ops_of(model)}
@@ -49,10 +57,12 @@ def _check_kind(value: Any) -> Any:
         raise mistake(describe(value), "a mapping with an 'op'")
     if "op" not in value:
         raise mistake("no 'op'", "the key 'op'")
-    op = value["op"]
-    if not isinstance(op, str) or op not in MODEL_OF_OP:
-        hint = nearest(str(op), MODEL_OF_OP)
-        raise mistake(f"the op {op!r}", "an op of part 1 of FORMAT.md, or a walk", hint, at=("op",))
+    op, known = value["op"], OUTPUTS if "inputs" in value else MODEL_OF_OP
+    if not isinstance(op, str) or op not in known:
+        expected = "an op of FORMAT.md"
+        if op in OUTPUTS:
+            expected = f"an op of {', '.join(sorted(MODEL_OF_OP))}, or 'inputs' with those of its record"
+        raise mistake(f"the op {op!r}", expected, nearest(str(op), known), at=("op",))
     return value
 
 

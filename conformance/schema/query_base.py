@@ -6,8 +6,8 @@ from typing import ClassVar, Literal, TypeAlias
 
 from conformance.schema.values import Strictly
 
-Needs: TypeAlias = Literal["cells", "geometry", ""]
-"""Which part of the scene a query works on."""
+Needs: TypeAlias = Literal["cells", "geometry", "scene", "terrain", ""]
+"""Which part of the scene a query works on; ``scene``: cells, terrain, or both."""
 
 
 class QueryModel(Strictly):

@@ -1,77 +1,30 @@
-"""The models of a case's scene: cells with pose, geometry and statics, or one geometry on its own."""
+"""The models of a case's scene: cells, a world of cells and land, or one geometry on its own."""
 
 from __future__ import annotations
 
-from typing import Annotated, Any, Final, Literal
+from typing import TYPE_CHECKING, Annotated, Any, Final, TypeAlias
 
-from pydantic import AfterValidator, Field, model_validator
+from pydantic import AfterValidator, Field, WrapValidator, model_validator
 
+from conformance.schema.frames import FrameModel
+from conformance.schema.geometry import GeometryModel, wrong_keys
 from conformance.schema.mistakes import mistake
-from conformance.schema.primitives import ShapeModel
-from conformance.schema.values import CellId, Number, Plane, Quaternion, Rows, Strictly, Vec3
-from conformance.source import quoted
+from conformance.schema.values import CellId, Number, Strictly
+from conformance.schema.world import (
+    BlockId,
+    BuildingModel,
+    DoorwayModel,
+    ObjectModel,
+    PortalModel,
+    Stab,
+    TerrainModel,
+)
 
-ROTATIONS: Final = ("yaw", "quaternion", "matrix")
+if TYPE_CHECKING:
+    from collections.abc import Iterator
 
-
-class FrameModel(Strictly):
-    """Where something is and how it is turned: an origin and exactly one form of rotation."""
-
-    origin: Vec3 = Field(description="Metres, in the landblock's frame.")
-    yaw: Number | None = Field(None, description="Degrees about z, counter-clockwise seen from above.")
-    quaternion: Quaternion | None = Field(None, description="w, x, y, z; of unit length.")
-    matrix: Rows | None = Field(None, description="Images of the local x, y and z axis; rigid.")
-
-    @model_validator(mode="after")
-    def _one_rotation(self) -> FrameModel:
-        given = [name for name in ROTATIONS if getattr(self, name) is not None]
-        if len(given) != 1:
-            found = f"the rotations {quoted(given)}" if given else "no rotation"
-            raise mistake(found, f"exactly one of {quoted(ROTATIONS)}", "`yaw: 0` for no turn")
-        return self
-
-
-class PoseModel(FrameModel):
-    """A place in the world: the cell whose landblock the origin is in, origin and rotation."""
-
-    cell: CellId = Field(description="Cell id; its high 16 bits name the landblock.")
-
-
-class ContainsModel(Strictly):
-    """The volume of a cell, as the planes of its cell BSP: a box, or the planes themselves."""
-
-    low: Vec3 | None = Field(None, description="Lowest corner of a box, cell-local metres.")
-    high: Vec3 | None = Field(None, description="Highest corner of a box, cell-local metres.")
-    planes: Annotated[list[Plane], Field(min_length=1)] | None = Field(
-        None, description="Inward-facing planes, outermost first."
-    )
-
-    @model_validator(mode="after")
-    def _box_or_planes(self) -> ContainsModel:
-        if self.model_fields_set not in ({"low", "high"}, {"planes"}):
-            raise _wrong_keys(self, "'low' and 'high', or 'planes'")
-        return self
-
-
-class GeometryModel(Strictly):
-    """Collision geometry: shapes for the tree builder, or a whole record with its own tree."""
-
-    shapes: Annotated[list[ShapeModel], Field(min_length=1)] | None = Field(
-        None, description="Primitives; their polygons are numbered in this order, from 0."
-    )
-    tree: Literal["front", "behind", "both"] | None = Field(
-        None, description="Which BSP leaf holds a polygon: the one before it, behind it, or both."
-    )
-    contains: ContainsModel | None = Field(None, description="Volume of a cell; without it, everything.")
-    record: dict[str, Any] | None = Field(None, description="A line of a geometry file (FORMAT.md).")
-
-    @model_validator(mode="after")
-    def _shapes_or_record(self) -> GeometryModel:
-        if self.model_fields_set - {"contains"} not in ({"shapes", "tree"}, {"record"}):
-            raise _wrong_keys(self, "'shapes' and 'tree', or 'record'")
-        if self.record is not None and self.contains is not None:
-            raise mistake("'contains' beside 'record'", "'cell_bsp' inside the record")
-        return self
+WORLD_KEYS: Final = ("landblock", "terrain", "doorways", "buildings", "objects")
+"""Keys of a scene that make it a world."""
 
 
 class StaticModel(Strictly):
@@ -82,14 +35,36 @@ class StaticModel(Strictly):
     geometry: GeometryModel
 
 
+def _id_or_portal(value: Any, handler: Any) -> Any:
+    """Let an id stand as it is: in a scene of cells it is all that is known of a portal."""
+    return value if isinstance(value, int) and not isinstance(value, bool) else handler(value)
+
+
+if TYPE_CHECKING:
+    CellPortal: TypeAlias = PortalModel | int
+else:
+    CellPortal = Annotated[
+        PortalModel, WrapValidator(_id_or_portal, json_schema_input_type=PortalModel | CellId)
+    ]
+
+
 class CellModel(Strictly):
-    """An environment cell."""
+    """An interior cell."""
 
     id: CellId = Field(description="Such as 0xA9B40151.")
     pose: FrameModel
     geometry: GeometryModel | None = Field(description="null for a cell without collision geometry.")
-    statics: list[StaticModel] = Field(default_factory=list)
-    portals: list[CellId] = Field(default_factory=list, description="The cells its portals lead to.")
+    statics: list[StaticModel] = Field(default_factory=list, description="Not in a world: `objects` there.")
+    portals: list[CellPortal] = Field(
+        default_factory=list,
+        description="The cells its portals lead to; in a world each with its polygon.",
+    )
+    stab: Stab = Field(default_factory=list, description="The cells seen from it: a list, or 'all'.")
+
+    @property
+    def placed_portals(self) -> list[PortalModel]:
+        """The portals that have a polygon."""
+        return [portal for portal in self.portals if isinstance(portal, PortalModel)]
 
 
 def _check_ids(cells: list[CellModel]) -> list[CellModel]:
@@ -97,26 +72,83 @@ def _check_ids(cells: list[CellModel]) -> list[CellModel]:
     for index, cell in enumerate(cells):
         if cell.id in ids[:index]:
             raise mistake(f"the cell id 0x{cell.id:08X} again", "each cell once", at=(index, "id"))
-        for number, portal in enumerate(cell.portals):
-            if portal not in ids:
-                where = (index, "portals", number)
-                raise mistake(f"a portal to 0x{portal:08X}", "a cell of this scene", at=where)
+        for place, other, loaded in _neighbours(cell):
+            if other is not None and (other in ids) is not loaded:
+                if loaded:
+                    expected = "a cell of this scene"
+                    hint = "" if place[-1] != "to" else "`loaded: false` for a cell that is not loaded"
+                    raise mistake(f"a portal to 0x{other:08X}", expected, hint, at=(index, *place))
+                found = f"0x{other:08X} with 'loaded: false'"
+                raise mistake(found, "a cell that is not in this scene", at=(index, *place))
     return cells
 
 
+def _neighbours(cell: CellModel) -> Iterator[tuple[tuple[str | int, ...], int | None, bool]]:
+    """Yield where the cell of each portal is named, which it is, and whether it should be there."""
+    for number, portal in enumerate(cell.portals):
+        if isinstance(portal, PortalModel):
+            yield ("portals", number, "to"), portal.to, portal.loaded is None
+        else:
+            yield ("portals", number), portal, True
+
+
 class SceneModel(Strictly):
-    """What a query runs in: cells for movement, a single geometry for polygons and trees."""
+    """What a query runs in: cells for movement, a world, or a single geometry for polygons and trees."""
 
     cells: Annotated[list[CellModel], Field(min_length=1), AfterValidator(_check_ids)] | None = None
     geometry: GeometryModel | None = None
+    landblock: BlockId | None = Field(None, description="The landblock in whose frame formulas are written.")
+    terrain: list[TerrainModel] = Field(default_factory=list)
+    doorways: list[DoorwayModel] = Field(default_factory=list)
+    buildings: list[BuildingModel] = Field(default_factory=list)
+    objects: list[ObjectModel] = Field(
+        default_factory=list, description="In the order in which they are registered, so tested."
+    )
+
+    @property
+    def is_world(self) -> bool:
+        """Whether it is more than cells whose portals are only named."""
+        if self.model_fields_set & {*WORLD_KEYS}:
+            return True
+        return any(cell.placed_portals or "stab" in cell.model_fields_set for cell in self.cells or ())
+
+    @staticmethod
+    def is_world_data(scene: dict[str, Any]) -> bool:
+        """Tell the same of data that may have mistakes."""
+        cells = scene.get("cells")
+        listed = [cell for cell in cells if isinstance(cell, dict)] if isinstance(cells, list) else []
+        portals = [cell["portals"] for cell in listed if isinstance(cell.get("portals"), list)]
+        placed = any(isinstance(portal, dict) for some in portals for portal in some)
+        return placed or bool({*scene} & {*WORLD_KEYS}) or any("stab" in cell for cell in listed)
 
     @model_validator(mode="after")
-    def _cells_or_geometry(self) -> SceneModel:
-        if len(self.model_fields_set) != 1:
-            raise _wrong_keys(self, "either 'cells' or 'geometry'")
+    def _one_kind(self) -> SceneModel:
+        given = self.model_fields_set
+        if "geometry" in given and len(given) > 1:
+            raise wrong_keys(self, "either 'geometry' or the others")
+        if not given & {"geometry", "cells", "terrain"}:
+            raise wrong_keys(self, "'cells', 'terrain', both, or 'geometry'")
         return self
 
+    @model_validator(mode="after")
+    def _formulas_have_a_frame(self) -> SceneModel:
+        for index, terrain in enumerate(self.terrain):
+            if terrain.formula is not None and self.landblock is None:
+                where = ("terrain", index, "formula")
+                raise mistake("a formula", "'landblock' in the scene, whose frame x and y are in", at=where)
+        return self
 
-def _wrong_keys(model: Strictly, expected: str) -> Exception:
-    given = [name for name in type(model).model_fields if name in model.model_fields_set]
-    return mistake(f"the keys {quoted(given)}" if given else "no key", expected)
+    @model_validator(mode="after")
+    def _cells_of_a_world(self) -> SceneModel:
+        if not self.is_world:
+            return self
+        for index, cell in enumerate(self.cells or ()):
+            at = ("cells", index)
+            if cell.statics:
+                raise mistake("'statics' in a world", "'objects' of the scene", at=(*at, "statics"))
+            for number, portal in enumerate(cell.portals):
+                if not isinstance(portal, PortalModel):
+                    where = (*at, "portals", number)
+                    found = f"a portal to 0x{portal:08X} without a polygon"
+                    raise mistake(found, "'to' and 'polygon' in a world, or a doorway", at=where)
+        return self

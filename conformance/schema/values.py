@@ -24,10 +24,35 @@ MOVER_STATES: Final = {
     "path_clipped": 0x8,
     "free_rotate": 0x10,
     "perfect_clip": 0x40,
+    "impenetrable": 0x80,
     "player": 0x100,
     "edge_slide": 0x200,
+    "ignore_creatures": 0x400,
+    "pk": 0x800,
+    "pklite": 0x1000,
 }
 """Bits of OBJECTINFO's state by name (retail: ObjectInfoEnum, 04 §1.3)."""
+
+OBJECT_STATES: Final = {
+    "static": 0x1,
+    "ethereal": 0x4,
+    "report_collisions": 0x8,
+    "ignore_collisions": 0x10,
+    "missile": 0x40,
+    "align_path": 0x100,
+    "path_clipped": 0x200,
+    "gravity": 0x400,
+    "lighting_on": 0x800,
+    "particle_emitter": 0x1000,
+    "hidden": 0x4000,
+    "has_physics_bsp": 0x10000,
+    "inelastic": 0x20000,
+    "report_collisions_as_environment": 0x200000,
+    "edge_slide": 0x400000,
+    "sledding": 0x800000,
+    "frozen": 0x1000000,
+}
+"""Bits of an object's state by name (retail: PhysicsState, 04 1.5, 08 1.)."""
 
 INSERT_TYPES: Final = {"transition": 0, "placement": 1, "initial_placement": 2}
 """SPHEREPATH's insert types by name (04 §1.2)."""

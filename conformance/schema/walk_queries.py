@@ -6,31 +6,14 @@ from typing import Annotated, ClassVar, Final, Literal
 
 from pydantic import BeforeValidator, Field, WithJsonSchema, model_validator
 
+from conformance.schema.frames import PoseModel
 from conformance.schema.mistakes import mistake
 from conformance.schema.movement_queries import MoverQuery
 from conformance.schema.mover import SeededPlaneModel, Spheres
 from conformance.schema.query_base import Needs, QueryModel
-from conformance.schema.scene import PoseModel
-from conformance.schema.values import Flag, Number, Pair, Strictly, Vec3, named_bits
+from conformance.schema.values import OBJECT_STATES, Flag, Number, Pair, Strictly, Vec3, named_bits
 from conformance.source import quoted
 
-BODY_STATES: Final = {
-    "static": 0x1,
-    "ethereal": 0x4,
-    "report_collisions": 0x8,
-    "ignore_collisions": 0x10,
-    "missile": 0x40,
-    "align_path": 0x100,
-    "path_clipped": 0x200,
-    "gravity": 0x400,
-    "lighting_on": 0x800,
-    "hidden": 0x4000,
-    "inelastic": 0x20000,
-    "edge_slide": 0x400000,
-    "sledding": 0x800000,
-    "frozen": 0x1000000,
-}
-"""Bits of a body's state by name (retail: PhysicsState, 04 1.5)."""
 TRANSIENT_STATES: Final = {"contact": 0x1, "on_walkable": 0x2, "sliding": 0x4, "active": 0x80}
 """Bits of a body's transient state by name (04 1.4); the others are retail's own bookkeeping."""
 
@@ -94,7 +77,7 @@ class InputModel(SegmentModel):
 class WalkQuery(MoverQuery):
     """Recorded moves, one transition after the other."""
 
-    needs: ClassVar[Needs] = "cells"
+    needs: ClassVar[Needs] = "scene"
     op: Literal["walk"]
     start: PoseModel
     ticks: Annotated[list[MoveModel], Field(min_length=1)]
@@ -106,8 +89,8 @@ class BodyModel(Strictly):
     spheres: Spheres
     state: Annotated[
         int,
-        BeforeValidator(named_bits(BODY_STATES)),
-        WithJsonSchema({"type": "array", "items": {"enum": list(BODY_STATES)}}),
+        BeforeValidator(named_bits(OBJECT_STATES)),
+        WithJsonSchema({"type": "array", "items": {"enum": list(OBJECT_STATES)}}),
     ]
     transient_state: Annotated[
         int,
@@ -128,7 +111,7 @@ class BodyModel(Strictly):
 class BodyWalkQuery(QueryModel):
     """A body that moves by itself: gravity, friction, transitions, bounces."""
 
-    needs: ClassVar[Needs] = "cells"
+    needs: ClassVar[Needs] = "scene"
     op: Literal["body_walk"]
     body: BodyModel
     start: PoseModel

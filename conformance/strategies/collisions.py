@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Any, Final
 from hypothesis import strategies as st
 
 from conformance.strategies.contact import draw_aim
+from conformance.strategies.meetings import SELDOM, Meeting, Target, draw_meeting, draw_probe
 from conformance.strategies.movers import (
     ALLOWANCES,
     CONTACT,
@@ -18,12 +19,9 @@ from conformance.strategies.movers import (
     PERFECT_CLIP,
     SCALES,
     VIEWER,
-    draw_mover,
-    draw_seed,
-    foot_of,
 )
-from conformance.strategies.numbers import DIRECTIONS, FLAGS, along, anywhere, grid, unit, vectors
-from conformance.strategies.poses import CELLS, FACINGS, ROTATIONS, draw_pose, to_world, turned
+from conformance.strategies.numbers import FLAGS, along, anywhere, grid, vectors
+from conformance.strategies.poses import CELLS, ROTATIONS, draw_pose, to_world, turned
 from conformance.strategies.scenes import GEOMETRIES
 from conformance.vector_io import query_from_record
 
@@ -31,7 +29,7 @@ if TYPE_CHECKING:
     from collections.abc import Mapping
 
     from conformance.query import Query
-    from conformance.scenes.model import Geometry, Quaternion, Vec3
+    from conformance.scenes.model import Geometry
 
 _GROUNDED: Final = CONTACT | ON_WALKABLE
 
@@ -80,23 +78,10 @@ _TRANSITION_STATES: Final = st.sampled_from(
         PATH_CLIPPED,
     )
 )
-_SELDOM: Final = st.sampled_from((False, False, False, True))
 _STATIC_STATES: Final = st.sampled_from((0x10001, 0x10001, 0x10005))
 """Static with a BSP; the last one ethereal too (PhysicsState, 08)."""
 _WALK_INTERPS: Final = st.sampled_from((1.0, 1.0, 1.0, 0.5)) | anywhere(0.0, 1.0)
 _STEP_DOWNS: Final = st.just(0.5) | grid(0.0, 1.5)
-_WAYS: Final = st.sampled_from(("into", "down", "aslant", "into", "any"))
-_LENGTHS: Final = st.sampled_from((0.25, 0.0)) | anywhere(0.0, 1.0)
-
-
-@dataclass(frozen=True, slots=True)
-class _Encounter:
-    """A mover about to meet a polygon of a posed geometry: MOVER, two POSE blocks, SEED."""
-
-    mover: dict[str, Any]
-    start: dict[str, Any]
-    end: dict[str, Any]
-    seed: dict[str, Any]
 
 
 @st.composite
@@ -108,7 +93,7 @@ def find_collisions(
     geometry = draw(geometries)
     kind = draw(_KINDS)
     scale = 1.0 if kind == "cell" else draw(SCALES)
-    floors = way.floors and not draw(_SELDOM)
+    floors = way.floors and not draw(SELDOM)
     pose = draw_pose(draw, draw(CELLS), upright=floors)
     met = _draw_encounter(draw, geometry, pose, scale, draw(st.sampled_from(way.states)), floors=floors)
     record = {
@@ -121,7 +106,7 @@ def find_collisions(
         "from": met.start,
         "to": met.end,
         "seed": met.seed,
-        "path": _draw_path(draw, way),
+        "path": draw_path(draw, way),
     }
     return query_from_record(record, {geometry.name: geometry})
 
@@ -131,7 +116,7 @@ def transitions(draw: st.DrawFn) -> Query:
     """Generate queries of one `find_valid_position` in a cell, some with a static object in it."""
     geometry = draw(GEOMETRIES)
     cell = draw(CELLS)
-    floors = not draw(_SELDOM)
+    floors = not draw(SELDOM)
     pose = draw_pose(draw, cell, upright=floors)
     met = _draw_encounter(draw, geometry, pose, 1.0, draw(_TRANSITION_STATES), floors=floors)
     known = {geometry.name: geometry}
@@ -144,7 +129,7 @@ def transitions(draw: st.DrawFn) -> Query:
         "op": "transition",
         "cells": [block],
         "mover": met.mover,
-        "from": None if draw(_SELDOM) else met.start,
+        "from": None if draw(SELDOM) else met.start,
         "to": met.end,
         "begin_cell": cell,
         "seed": met.seed,
@@ -162,38 +147,16 @@ def _draw_static(draw: st.DrawFn, geometry: str, near: dict[str, Any]) -> dict[s
 
 def _draw_encounter(
     draw: st.DrawFn, geometry: Geometry, pose: dict[str, Any], scale: float, state: int, *, floors: bool
-) -> _Encounter:
-    mover = draw_mover(draw, state)
-    sphere = mover["spheres"][-1 if draw(_SELDOM) else 0]
-    x, y, z, radius = (part * mover["scale"] for part in sphere)
-    aim = draw_aim(draw, geometry, radius / scale, floors=floors)
-    normal = turned(pose["rotation"], aim.normal)
-    facing = draw(FACINGS)
-    end = along(to_world(pose, aim.center, scale), turned(facing, (x, y, z)), -1.0)
-    overlap = max(radius - aim.distance * scale, 0.0)
-    start = along(end, _draw_movement(draw, normal, overlap), -1.0)
-    start_facing = draw(FACINGS) if draw(_SELDOM) else facing
-    seed = draw_seed(draw, state, foot_of(mover, start), normal, pose["cell"])
-    return _Encounter(mover, _position(pose, start, start_facing), _position(pose, end, facing), seed)
+) -> Meeting:
+    """Draw a mover about to meet a polygon of a posed geometry."""
+    probe = draw_probe(draw, state)
+    aim = draw_aim(draw, geometry, probe.radius / scale, floors=floors)
+    overlap = max(probe.radius - aim.distance * scale, 0.0)
+    target = Target(turned(pose["rotation"], aim.normal), to_world(pose, aim.center, scale), overlap)
+    return draw_meeting(draw, probe, target, pose["cell"])
 
 
-def _draw_movement(draw: st.DrawFn, normal: Vec3, overlap: float) -> Vec3:
-    """Draw a displacement: into the polygon, aslant, down, anywhere; half of them began clear of it."""
-    into = (-normal[0], -normal[1], -normal[2])
-    match draw(_WAYS):
-        case "into":
-            direction = into
-        case "aslant":
-            direction = unit(along(into, draw(vectors(1.0)), 1.0))
-        case "down":
-            direction = (0.0, 0.0, -1.0)
-        case _:
-            direction = draw(DIRECTIONS)
-    length = draw(_LENGTHS) + draw(FLAGS) * overlap
-    return (direction[0] * length, direction[1] * length, direction[2] * length)
-
-
-def _draw_path(draw: st.DrawFn, way: Dispatch) -> dict[str, Any]:
+def draw_path(draw: st.DrawFn, way: Dispatch) -> dict[str, Any]:
     """Draw the PATH block of a dispatch path: its own keys and the numbers that it reads."""
     path: dict[str, Any] = {
         "insert_type": 0,
@@ -206,7 +169,3 @@ def _draw_path(draw: st.DrawFn, way: Dispatch) -> dict[str, Any]:
     if "step_down" in way.path:
         path["step_down_amt"] = draw(_STEP_DOWNS)
     return path
-
-
-def _position(pose: dict[str, Any], origin: Vec3, rotation: Quaternion) -> dict[str, Any]:
-    return {"cell": pose["cell"], "origin": origin, "rotation": rotation}

@@ -3,12 +3,11 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from functools import cache
 from typing import TYPE_CHECKING, Final
 
 from hypothesis import strategies as st
 
-from conformance.strategies.numbers import NEARLY, along, anywhere
+from conformance.strategies.numbers import NEARLY, along, anywhere, below
 from conformance.strategies.scenes import face
 
 if TYPE_CHECKING:
@@ -59,16 +58,16 @@ def draw_aim(draw: st.DrawFn, geometry: Geometry, radius: float, *, floors: bool
     every = range(len(geometry.polygons))
     facing_up = [i for i in every if face(geometry, i)[0][2] > 0.0] if floors else []
     targets = facing_up or every
-    polygon = targets[draw(_below(len(targets)))]
+    polygon = targets[draw(below(len(targets)))]
     normal, corners = face(geometry, polygon)
     multiple, offset = draw(_DISTANCES)
     distance = radius * multiple + offset
-    return Aim(polygon, normal, along(_draw_point(draw, corners), normal, distance), distance)
+    return Aim(polygon, normal, along(draw_point(draw, corners), normal, distance), distance)
 
 
-def _draw_point(draw: st.DrawFn, corners: list[Vec3]) -> Vec3:
+def draw_point(draw: st.DrawFn, corners: list[Vec3]) -> Vec3:
     """Draw a point of a polygon, sometimes a little outside it: the weighted mean of three corners."""
-    second = 1 + draw(_below(len(corners) - 2))
+    second = 1 + draw(below(len(corners) - 2))
     triangle = (corners[0], corners[second], corners[second + 1])
     weights = draw(_WEIGHTS)
     stretch = draw(_STRETCHES)
@@ -84,8 +83,3 @@ def _mean(corners: tuple[Vec3, Vec3, Vec3], weights: tuple[int, ...], stretch: f
     mean = sum(w * v for w, v in zip(weights, values, strict=True)) / sum(weights)
     middle = sum(values) / 3.0
     return middle + (mean - middle) * stretch
-
-
-@cache
-def _below(count: int) -> st.SearchStrategy[int]:
-    return st.integers(0, count - 1)

@@ -6,9 +6,11 @@ from typing import TYPE_CHECKING, Any, Final
 
 from hypothesis import strategies as st
 
-from conformance.strategies.numbers import anywhere, grid, unit
+from conformance.strategies.numbers import anywhere, grid, pick, unit
 
 if TYPE_CHECKING:
+    from collections.abc import Sequence
+
     from conformance.scenes.model import Vec3
 
 CONTACT: Final = 0x1
@@ -17,7 +19,12 @@ VIEWER: Final = 0x4
 PATH_CLIPPED: Final = 0x8
 FREE_ROTATE: Final = 0x10
 PERFECT_CLIP: Final = 0x40
+IMPENETRABLE: Final = 0x80
+PLAYER: Final = 0x100
 EDGE_SLIDE: Final = 0x200
+IGNORE_CREATURES: Final = 0x400
+PLAYER_KILLER: Final = 0x800
+PLAYER_KILLER_LITE: Final = 0x1000
 
 ALLOWANCES: Final = st.sampled_from((0.66417414, 0.0871557))
 """Limits of walkable slopes that retail uses: floor and landing, cosines of the slope."""
@@ -33,13 +40,16 @@ def _two_spheres(low: float, high: float, gap: float, aside: float) -> tuple[tup
     return ((0.0, 0.0, low, low), (aside, 0.0, low + gap + high, high))
 
 
+_TWO_SPHERES: Final = st.builds(_two_spheres, _RADII, _RADII, grid(0.0, 1.0), grid(-0.25, 0.25))
 _SPHERES: Final = st.one_of(
     st.just(((0.0, 0.0, 0.0, 0.48),)),
     st.just(((0.0, 0.0, 0.48, 0.48),)),
     st.just(_HUMAN),
     _RADII.map(lambda radius: ((0.0, 0.0, radius, radius),)),
-    st.builds(_two_spheres, _RADII, _RADII, grid(0.0, 1.0), grid(-0.25, 0.25)),
+    _TWO_SPHERES,
+    _TWO_SPHERES.map(lambda spheres: spheres[::-1]),
 )
+"""One sphere or two, mostly the lower one first."""
 _HEIGHTS: Final = st.sampled_from((0.6, 1.5, 0.04)) | grid(0.0, 2.0)
 _MOSTLY: Final = st.sampled_from((1, 1, 1, 0))
 _UPWARD: Final = st.builds(
@@ -47,6 +57,9 @@ _UPWARD: Final = st.builds(
 ) | st.just((0.0, 0.0, 1.0))
 _SLIDING: Final = st.none() | st.tuples(anywhere(-1.0, 1.0), anywhere(-1.0, 1.0), st.just(0.0))
 _STATIONARY: Final = st.sampled_from((0, 0, 0, 1, 2, 3))
+_ETHEREAL: Final = st.sampled_from((0, 0, 0, 4))
+_HARDLY: Final = st.sampled_from((False, False, False, False, False, True))
+_OWN_ID: Final = 0x50000001
 _REMEMBERED: Final = st.sampled_from((("contact", "last_known"), ("last_known",), ()))
 
 
@@ -64,11 +77,22 @@ def draw_mover(draw: st.DrawFn, state: int) -> dict[str, Any]:
     }
 
 
+def draw_identity(draw: st.DrawFn, others: Sequence[int]) -> dict[str, Any]:
+    """Draw what objects ask of a mover: its id (seldom one of theirs), missile and target, ethereal."""
+    identity: dict[str, Any] = {"id": _OWN_ID, "ethereal": draw(_ETHEREAL)}
+    if draw(_HARDLY) and others:
+        identity["id"] = pick(draw, others)
+    if draw(_HARDLY):
+        identity["missile"] = 1
+        identity["target_id"] = pick(draw, (0, *others))
+    return identity
+
+
 def draw_seed(draw: st.DrawFn, state: int, foot: Vec3, normal: Vec3, cell: int) -> dict[str, Any]:
     """Draw a SEED block: if in contact, a plane through the foot: level, aslant or along `normal`."""
     seed: dict[str, Any] = {}
     if state & CONTACT:
-        facing = draw(st.sampled_from((0, 1)))
+        facing = pick(draw, (0, 1))
         plane_normal = normal if facing else draw(_UPWARD)
         plane = [*plane_normal, -sum(n * p for n, p in zip(plane_normal, foot, strict=True))]
         seed = {key: {"plane": plane, "cell": cell, "is_water": 0} for key in draw(_REMEMBERED)}

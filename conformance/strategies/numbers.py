@@ -4,12 +4,16 @@ from __future__ import annotations
 
 import math
 from functools import cache
-from typing import TYPE_CHECKING, Final
+from typing import TYPE_CHECKING, Final, TypeVar
 
 from hypothesis import strategies as st
 
 if TYPE_CHECKING:
+    from collections.abc import Sequence
+
     from conformance.scenes.model import Vec3
+
+T = TypeVar("T")
 
 _GRID: Final = 64
 """Steps per unit of a grid number: exact in float32, and shrinks to whole units."""
@@ -22,6 +26,17 @@ _LEAST_DIRECTION: Final = 0.1
 FLAGS: Final = st.sampled_from((0, 1))
 NEARLY: Final = st.sampled_from((0.0, EPS, -EPS, 2 * EPS, -2 * EPS, 1e-6, -1e-6, 1e-4, -1e-4, _DENORMAL))
 """Offsets from a threshold at which retail's comparisons turn over."""
+
+
+@cache
+def below(count: int) -> st.SearchStrategy[int]:
+    """Whole numbers from 0 to `count` - 1."""
+    return st.integers(0, count - 1)
+
+
+def pick(draw: st.DrawFn, items: Sequence[T]) -> T:
+    """Draw one of a few items that are not known beforehand; it shrinks to the first."""
+    return items[draw(below(len(items)))]
 
 
 @cache

@@ -10,6 +10,8 @@ from conformance.scenes.rotations import rotate, round_quaternion, rows_from_qua
 from conformance.strategies.numbers import anywhere, grid
 
 if TYPE_CHECKING:
+    from collections.abc import Mapping
+
     from conformance.scenes.model import Quaternion, Vec3
 
 CELLS: Final = st.sampled_from((0xA9B40150, 0x00010101, 0xA9B40111))
@@ -59,7 +61,7 @@ def draw_pose(draw: st.DrawFn, cell: int, *, upright: bool = False) -> dict[str,
     return {"cell": cell, "origin": draw(ORIGINS), "rotation": draw(UPRIGHT if upright else ROTATIONS)}
 
 
-def to_world(pose: dict[str, Any], point: Vec3, scale: float) -> Vec3:
+def to_world(pose: Mapping[str, Any], point: Vec3, scale: float) -> Vec3:
     """Take a point of scaled geometry to the landblock's frame, float64."""
     x, y, z = turned(pose["rotation"], (point[0] * scale, point[1] * scale, point[2] * scale))
     ox, oy, oz = pose["origin"]

@@ -1,35 +1,31 @@
-"""Environment cells (09): what is in one, which ones the mover reaches, which one contains it.
+"""What is in a cell (09, 3): its environment, its building, its objects.
 
-A cell's *shapes* are its own tree, number 0, and then its objects in order. A test of a shape is in
-two halves, because the answer may be that of a step up (`engine.kernels.bsp_tree`).
+Environment and building are numbered 0 and 1: what is fixed in the cell. A test of either is in two
+halves, because the answer may be that of a step up (`engine.kernels.bsp_tree`). No cell keeps anybody
+out: CObjCell::check_entry_restrictions (09, 3.1) would ask the game, and answers OK.
 """
 
 from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from engine.constants import CONTACT, FIRST_INDOOR, INITIAL_PLACEMENT_INSERT, OK, OUTSIDE
-from engine.kernels.bsp_cell import point_inside_cell_bsp, sphere_intersects_cell_bsp
+from engine.constants import CONTACT, INITIAL_PLACEMENT_INSERT, OK
 from engine.kernels.bsp_placement import placement_insert
 from engine.kernels.bsp_tree import find_collisions
+from engine.kernels.cell_array import ints_of, is_land, position_of
+from engine.kernels.cell_list import UNTOUCHED, find_cell_list
 from engine.kernels.compile import inlined, kernel, pasted
-from engine.kernels.frame import frame_globaltolocal
-from engine.kernels.objects import accept_object, test_object
+from engine.kernels.land_cells import find_terrain_collisions
+from engine.kernels.objects import test_part
 from engine.kernels.path import cache_localspace_sphere
-from engine.kernels.position import block_offset
-from engine.kernels.rounding import f32
-from engine.kernels.vector import load
+from engine.kernels.trace import BUILDING_CALL, trace_close, trace_open
 from engine.layout import (
+    BLDG_CHECK,
+    BUILDING_INTS,
+    BUILDING_PART,
     CELL_ARRAY_VALID,
-    CELL_FLOATS,
-    CELL_ID,
-    CELL_INTS,
     CELL_OBJECT_COUNT,
     CELL_OBJECTS,
-    CELL_PLANE_COUNT,
-    CELL_PLANES,
-    CELL_PORTAL_COUNT,
-    CELL_PORTALS,
     CELL_TREE,
     CHECK_CELL,
     CHECK_POS,
@@ -37,21 +33,20 @@ from engine.layout import (
     GLOBAL_SPHERE,
     HITS_INTERIOR_CELL,
     INSERT_TYPE,
+    LAND_BUILDING,
+    MOVER_ID,
+    NO_BUILDING,
     NO_CELL,
-    NO_PLANES,
+    NO_PART,
     NO_TREE,
-    NUM_CELLS,
     NUM_SPHERE,
+    OBJECT_ID,
+    OBJECT_INTS,
     OBSTRUCTION_ETHEREAL,
     OI_STATE,
-    RADIUS,
-    SPHERE_SIZE,
-    STATUS,
-    STATUS_OUTDOORS,
-    WORLD_CELL_FLOATS,
-    WORLD_CELL_INTS,
-    WORLD_CELL_LIST,
-    WORLD_CELLS,
+    ORIGIN,
+    WORLD_BUILDINGS,
+    WORLD_OBJECT_INTS,
 )
 
 if TYPE_CHECKING:
@@ -59,167 +54,103 @@ if TYPE_CHECKING:
 
 
 @inlined
-def _position_of(wi: Ints, cell: int) -> int:
-    """Return where a cell's position lies in the world's floats."""
-    return wi[WORLD_CELL_FLOATS] + CELL_FLOATS * cell
+def _building_part(wi: Ints, cell: int) -> int:
+    """Return the part that a land cell's building is collided with, or NO_PART."""
+    building = wi[ints_of(wi, cell) + LAND_BUILDING]
+    return (
+        NO_PART
+        if building == NO_BUILDING
+        else wi[wi[WORLD_BUILDINGS] + BUILDING_INTS * building + BUILDING_PART]
+    )
 
 
 @inlined
-def _ints_of(wi: Ints, cell: int) -> int:
-    """Return where a cell's integers lie."""
-    return wi[WORLD_CELL_INTS] + CELL_INTS * cell
-
-
-@inlined
-def cell_id(wf: Array, wi: Ints, cell: int) -> float:
-    """Return the id of a cell."""
-    return wf[_position_of(wi, cell) + CELL_ID]
-
-
-@inlined
-def is_outdoors(cell: float) -> bool:
-    """Say whether an id is that of a land cell, or 0."""
-    return (int(cell) & 0xFFFF) < FIRST_INDOOR
+def fixed_count(wi: Ints, cell: int) -> int:
+    """Return how many fixed things are in a cell: its environment, and perhaps a building."""
+    return 2 if is_land(wi, cell) and _building_part(wi, cell) != NO_PART else 1
 
 
 @kernel
-def find_cell(wf: Array, wi: Ints, wanted: float, hint: int) -> int:
-    """Return the cell with an id, or NO_CELL; `hint` is looked at first.
+def test_fixed(wf: Array, wi: Ints, s: Array, cell: int, fixed: int) -> int:
+    """Test the mover against what is fixed in a cell; a TransitionState, or NEEDS_STEP_UP.
 
-    retail: CEnvCell::GetVisible 0x0052DC10, 09 2
+    retail: CEnvCell::find_collisions 0x0052C100, CLandCell::find_collisions 0x00532D60, 09 3.3-7
     """
-    if hint != NO_CELL and cell_id(wf, wi, hint) == wanted:
-        return hint
-    for cell in range(wi[WORLD_CELLS]):
-        if cell_id(wf, wi, cell) == wanted:
-            return cell
-    return NO_CELL
+    if fixed > 0:
+        return _test_building(wf, wi, s, _building_part(wi, cell))
+    if is_land(wi, cell):
+        return find_terrain_collisions(wf, wi, s, cell)
+    return _test_environment(wf, wi, s, cell)
 
 
-@inlined
-def shape_count(wi: Ints, s: Array, cell: int) -> int:
-    """Return how many shapes of a cell are tested: for an initial placement only its own.
+@pasted
+def _test_environment(wf: Array, wi: Ints, s: Array, cell: int) -> int:
+    """Test the mover against an environment cell's own tree.
 
-    retail: CObjCell::find_obj_collisions 0x0052B750, 09 3.2.1
+    retail: CEnvCell::find_env_collisions 0x0052C130, 09 3.4
     """
-    if s[INSERT_TYPE] == INITIAL_PLACEMENT_INSERT:
-        return 1
-    return 1 + wi[_ints_of(wi, cell) + CELL_OBJECT_COUNT]
-
-
-@kernel
-def test_shape(wf: Array, wi: Ints, s: Array, cell: int, shape: int) -> int:
-    """Test the mover against one shape of a cell; a TransitionState, or NEEDS_STEP_UP.
-
-    retail: CEnvCell::find_collisions 0x0052C100, 09 3.2-4
-    """
-    if shape > 0:
-        return test_object(wf, wi, s, wi[_ints_of(wi, cell) + CELL_OBJECTS] + shape - 1)
     s[OBSTRUCTION_ETHEREAL] = 0.0
-    root = wi[_ints_of(wi, cell) + CELL_TREE]
+    root = wi[ints_of(wi, cell) + CELL_TREE]
     if root == NO_TREE:
         return OK
-    cache_localspace_sphere(s, wf, _position_of(wi, cell), 1.0)
+    cache_localspace_sphere(s, wf, position_of(wi, cell), 1.0)
     if s[INSERT_TYPE] == INITIAL_PLACEMENT_INSERT:
         return placement_insert(wf, wi, s, root)
     return find_collisions(wf, wi, s, root, 1.0)
 
 
-@kernel
-def accept_shape(wi: Ints, s: Array, cell: int, shape: int, ts: int) -> int:
-    """Note what was touched.
-
-    retail: CEnvCell::find_env_collisions 0x0052C130, 09 3.4.3, CPhysicsObj::FindObjCollisions, 08 3.9
-    """
-    if shape > 0:
-        return accept_object(wi, s, wi[_ints_of(wi, cell) + CELL_OBJECTS] + shape - 1, ts)
-    if ts != OK and not int(s[OI_STATE]) & CONTACT:
-        s[COLLIDED_WITH_ENVIRONMENT] = 1.0
-    return ts
-
-
 @pasted
-def _contains(wf: Array, wi: Ints, cell: int, x: float, y: float, z: float) -> bool:
-    """Say whether a cell contains a point of its block.
+def _test_building(wf: Array, wi: Ints, s: Array, part: int) -> int:
+    """Test the mover against the outside of a house.
 
-    retail: CEnvCell::point_in_cell 0x0052C300, 09 4.1
+    retail: CBuildingObj::find_building_collisions 0x006B5300, 09 3.7
     """
-    ints = _ints_of(wi, cell)
-    count = wi[ints + CELL_PLANE_COUNT]
-    if count == NO_PLANES:
-        return True
-    lx, ly, lz = frame_globaltolocal(wf, _position_of(wi, cell), x, y, z)
-    return point_inside_cell_bsp(wf, wi[ints + CELL_PLANES], count, lx, ly, lz)
-
-
-@pasted
-def _reached(wf: Array, wi: Ints, s: Array, cell: int) -> bool:
-    """Say whether any of the check position's spheres is partly inside a cell.
-
-    retail: CEnvCell::find_transit_cells 0x0052C820, 09 4.2.B
-    """
-    ints = _ints_of(wi, cell)
-    count = wi[ints + CELL_PLANE_COUNT]
-    if count == NO_PLANES:
-        return s[NUM_SPHERE] > 0.0
-    for i in range(int(s[NUM_SPHERE])):
-        at = GLOBAL_SPHERE + SPHERE_SIZE * i
-        x, y, z = load(s, at)
-        lx, ly, lz = frame_globaltolocal(wf, _position_of(wi, cell), x, y, z)
-        if (
-            sphere_intersects_cell_bsp(wf, wi[ints + CELL_PLANES], count, lx, ly, lz, s[at + RADIUS])
-            != OUTSIDE
-        ):
-            return True
-    return False
+    s[BLDG_CHECK] = 1.0
+    trace_open(wi, s, BUILDING_CALL)
+    return test_part(wf, wi, s, part)
 
 
 @inlined
-def listed_cell(wi: Ints, s: Array, i: int) -> int:
-    """Return an entry of the cell list."""
-    return int(s[wi[WORLD_CELL_LIST] + i])
+def accept_fixed(wi: Ints, s: Array, cell: int, fixed: int, ts: int) -> None:
+    """Note what was touched; the ground has done so itself.
 
-
-@kernel
-def _add_cell(wi: Ints, s: Array, cell: int) -> None:
-    """Append a cell to the list unless it is there.
-
-    retail: CELLARRAY::add_cell 0x006B4FF0, 09 1.1
+    retail: CEnvCell::find_env_collisions 0x0052C130, 09 3.4.3;
+    CBuildingObj::find_building_collisions 0x006B5300, 09 3.7.4-5
     """
-    count = int(s[NUM_CELLS])
-    for i in range(count):
-        if listed_cell(wi, s, i) == cell:
-            return
-    s[wi[WORLD_CELL_LIST] + count] = cell
-    s[NUM_CELLS] = count + 1
+    if fixed > 0:
+        s[BLDG_CHECK] = 0.0
+        trace_close(wi, s, ts)
+    elif is_land(wi, cell):
+        return
+    if ts != OK and not int(s[OI_STATE]) & CONTACT:
+        s[COLLIDED_WITH_ENVIRONMENT] = 1.0
 
 
-@pasted
-def _add_neighbours(wf: Array, wi: Ints, s: Array, cell: int) -> None:
-    """Append the cells behind a cell's portals that the spheres reach.
+@inlined
+def object_count(wi: Ints, s: Array, cell: int) -> int:
+    """Return how many objects of a cell are tested: for an initial placement none.
 
-    retail: CEnvCell::find_transit_cells 0x0052C820, 09 4.2
+    retail: CObjCell::find_obj_collisions 0x0052B750, 09 3.2.1
     """
-    ints = _ints_of(wi, cell)
-    first = wi[ints + CELL_PORTALS]
-    for i in range(first, first + wi[ints + CELL_PORTAL_COUNT]):
-        if _reached(wf, wi, s, wi[i]):
-            _add_cell(wi, s, wi[i])
+    if s[INSERT_TYPE] == INITIAL_PLACEMENT_INSERT:
+        return 0
+    return wi[ints_of(wi, cell) + CELL_OBJECT_COUNT]
 
 
-@pasted
-def _containing_cell(wf: Array, wi: Ints, s: Array) -> int:
-    """Return the first listed cell that contains sphere 0, or NO_CELL.
+@inlined
+def object_in(wi: Ints, cell: int, i: int) -> int:
+    """Return the i-th object of a cell."""
+    return wi[wi[ints_of(wi, cell) + CELL_OBJECTS] + i]
 
-    retail: CObjCell::find_cell_list 0x0052B4E0, 09 5.1.6
+
+@inlined
+def is_mover(wi: Ints, s: Array, thing: int) -> bool:
+    """Say whether an object is the mover itself.
+
+    retail: CObjCell::find_obj_collisions 0x0052B750, 09 3.2.2
     """
-    x, y, z = load(s, GLOBAL_SPHERE)
-    for i in range(int(s[NUM_CELLS])):
-        cell = listed_cell(wi, s, i)
-        bx, by = block_offset(s[CHECK_POS], cell_id(wf, wi, cell))
-        if _contains(wf, wi, cell, f32(x - bx), f32(y - by), f32(z - 0.0)):
-            return cell
-    return NO_CELL
+    mover = s[MOVER_ID]
+    return mover != 0.0 and wi[wi[WORLD_OBJECT_INTS] + OBJECT_INTS * thing + OBJECT_ID] == mover
 
 
 @kernel
@@ -228,23 +159,11 @@ def build_cell_array(wf: Array, wi: Ints, s: Array) -> int:
 
     NO_CELL if none does, or if the check position's own cell is not in the world.
 
-    retail: CTransition::build_cell_array 0x00509EE0, CObjCell::find_cell_list 0x0052B4E0, 09 5.1
+    retail: CTransition::build_cell_array 0x00509EE0, CObjCell::find_cell_list 0x0052B960, 09 5.2
     """
     s[CELL_ARRAY_VALID] = 1.0
     s[HITS_INTERIOR_CELL] = 0.0
-    s[NUM_CELLS] = 0.0
-    if is_outdoors(s[CHECK_POS]):
-        s[STATUS] = STATUS_OUTDOORS
-        return NO_CELL
-    s[HITS_INTERIOR_CELL] = 1.0
-    start = find_cell(wf, wi, s[CHECK_POS], int(s[CHECK_CELL]))
-    if start == NO_CELL:
-        return NO_CELL
-    _add_cell(wi, s, start)
-    if s[NUM_SPHERE] == 0.0:
-        return NO_CELL
-    i = 0
-    while i < int(s[NUM_CELLS]):
-        _add_neighbours(wf, wi, s, listed_cell(wi, s, i))
-        i += 1
-    return _containing_cell(wf, wi, s)
+    x, y = s[CHECK_POS + ORIGIN], s[CHECK_POS + ORIGIN + 1]
+    hint, count = int(s[CHECK_CELL]), int(s[NUM_SPHERE])
+    found = find_cell_list(wf, wi, s, hint, s[CHECK_POS], x, y, s, GLOBAL_SPHERE, count)
+    return NO_CELL if found == UNTOUCHED else found

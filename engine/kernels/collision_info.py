@@ -24,8 +24,7 @@ from engine.layout import (
     PLANE_SIZE,
     SLIDING_NORMAL,
     SLIDING_VALID,
-    WORLD_CELL_LIST,
-    WORLD_CELLS,
+    WORLD_TOUCHED,
 )
 
 if TYPE_CHECKING:
@@ -127,7 +126,7 @@ def add_object(wi: Ints, s: Array, thing: int, ts: int) -> None:
     retail: COLLISIONINFO::add_object 0x006B4E20, 04 5
     """
     count = int(s[NUM_COLLIDE_OBJECT])
-    base = wi[WORLD_CELL_LIST] + wi[WORLD_CELLS]
+    base = wi[WORLD_TOUCHED]
     for i in range(base, base + count):
         if s[i] == thing:
             return

@@ -8,7 +8,8 @@ from engine import layout as at
 from engine.constants import INITIAL_PLACEMENT_INSERT, NEEDS_STEP_UP
 from engine.kernels.bsp_placement import placement_insert
 from engine.kernels.bsp_tree import dispatch, find_collisions
-from engine.kernels.compile import entry, kernel
+from engine.kernels.cell_array import ints_of, position_of
+from engine.kernels.compile import entry, kernel, pasted
 from engine.kernels.path import cache_localspace_sphere, set_check_pos
 from engine.kernels.query import prepare, report, set_path_fields
 from engine.kernels.stepping import step_up_or_slide
@@ -20,34 +21,33 @@ if TYPE_CHECKING:
 
 @kernel
 def _target(wi: Ints, q: Array) -> tuple[int, int, bool]:
-    """Return where the target's floats and ints lie, and whether it is an object.
-
-    A cell's and an object's records begin alike: position, tree.
-    """
+    """Return where the target's position lies, the root of its tree, and whether it is an object's part."""
     thing = int(q[at.Q_TARGET_OBJECT])
     if thing != at.NO_OBJECT:
-        floats = wi[at.WORLD_OBJECT_FLOATS] + at.OBJECT_FLOATS * thing
-        return floats, wi[at.WORLD_OBJECT_INTS] + at.OBJECT_INTS * thing, True
+        part = wi[wi[at.WORLD_OBJECT_INTS] + at.OBJECT_INTS * thing + at.OBJECT_FIRST]
+        root = wi[wi[at.WORLD_PART_INTS] + at.PART_INTS * part + at.PART_TREE]
+        return wi[at.WORLD_PART_FLOATS] + at.PART_FLOATS * part, root, True
     cell = int(q[at.Q_TARGET_CELL])
-    return (
-        wi[at.WORLD_CELL_FLOATS] + at.CELL_FLOATS * cell,
-        wi[at.WORLD_CELL_INTS] + at.CELL_INTS * cell,
-        False,
-    )
+    return position_of(wi, cell), wi[ints_of(wi, cell) + at.CELL_TREE], False
 
 
 @entry
 def collide(wf: Array, wi: Ints, s: Array, q: Array, out: Array) -> None:
     """Answer one query: test the mover at the end pose against the target's tree.
 
-    retail: BSPTREE::find_collisions 0x0053A440, or BSPTREE::placement_insert 0x00539960
+    retail: what calls BSPTREE::find_collisions 0x0053A440 or BSPTREE::placement_insert 0x00539960
     """
+    _collide(wf, wi, s, q, out)
+
+
+@pasted
+def _collide(wf: Array, wi: Ints, s: Array, q: Array, out: Array) -> None:
+    """Make one call, and report."""
     prepare(s, q)
     set_check_pos(s, at.END_POS, s[at.CURR_CELL])
     set_path_fields(s, q)
-    floats, ints, is_object = _target(wi, q)
-    scale = wf[floats + at.OBJECT_SCALE] if is_object else 1.0
-    root = wi[ints]
+    floats, root, is_part = _target(wi, q)
+    scale = wf[floats + at.PART_SCALE] if is_part else 1.0
     cache_localspace_sphere(s, wf, floats, scale)
     if s[at.INSERT_TYPE] == INITIAL_PLACEMENT_INSERT:
         path = INITIAL_PLACEMENT_CALL
@@ -66,4 +66,4 @@ def collide(wf: Array, wi: Ints, s: Array, q: Array, out: Array) -> None:
 def collide_many(wf: Array, wi: Ints, s: Array, queries: Array, out: Array) -> None:
     """Answer many queries, one after the other, in one row of state."""
     for i in range(len(queries)):
-        collide(wf, wi, s, queries[i], out[i])
+        _collide(wf, wi, s, queries[i], out[i])

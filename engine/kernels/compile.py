@@ -108,7 +108,7 @@ def inlined(function: F) -> F:
 def pasted(function: F) -> F:
     """Paste a function into its caller before types are inferred.
 
-    For a function that stands for itself in the source, but is called from one place: compiled by
-    itself, all that it calls would be linked and optimised once more.
+    For a function that stands for itself in the source, but is called from one place, or is short and
+    calls much: compiled by itself, all that it calls would be linked and optimised once more.
     """
     return _compiled(function, inline="always")

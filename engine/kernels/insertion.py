@@ -4,93 +4,114 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from engine.constants import (
-    ADJUSTED,
-    COLLIDED,
-    EDGE_SLIDE,
-    INVALID,
-    NEEDS_STEP_UP,
-    OK,
-    ON_WALKABLE,
-    SLID,
-    Z_LANDING,
+from engine.constants import ADJUSTED, COLLIDED, INVALID, NEEDS_STEP_UP, OK, SLID, Z_LANDING
+from engine.kernels.cell_array import listed_cell
+from engine.kernels.cells import (
+    accept_fixed,
+    build_cell_array,
+    fixed_count,
+    is_mover,
+    object_count,
+    object_in,
+    test_fixed,
 )
-from engine.kernels.adjust import cliff_slide
-from engine.kernels.cells import accept_shape, build_cell_array, listed_cell, shape_count, test_shape
 from engine.kernels.collision_info import forget_contact, set_collision_normal
-from engine.kernels.compile import inlined, kernel, pasted
-from engine.kernels.path import (
-    add_offset_to_check_pos,
-    cache_localspace_sphere,
-    restore_check_pos,
-    save_check_pos,
-)
+from engine.kernels.compile import kernel, pasted
+from engine.kernels.edge_slide import keep_contact
+from engine.kernels.objects import accept_object, begin_object, test_object_shape
+from engine.kernels.path import restore_check_pos
 from engine.kernels.probing import enter_cell, insert_once, stays_in_contact
-from engine.kernels.rounding import f32
 from engine.kernels.sphere import slide_sphere
 from engine.kernels.stepping import (
     check_walkable,
     insert_as_placement,
-    precipice_slide,
-    step_down,
-    step_limits,
     step_up,
     step_up_or_slide,
     step_up_slide,
 )
 from engine.kernels.trace import trace_close
-from engine.kernels.vector import copy, load
+from engine.kernels.vector import load
 from engine.layout import (
-    CELL_ARRAY_VALID,
     CHECK_CELL,
     COLLIDE,
-    CONTACT_PLANE,
     CONTACT_VALID,
-    GLOBAL_CURR_CENTER,
-    GLOBAL_SPHERE,
     KILL_VELOCITY,
     LAST_KNOWN_VALID,
-    LOCALSPACE_SPHERE,
     NEG_COLLISION_NORMAL,
     NEG_POLY_HIT,
     NEG_STEP_UP,
     NO_CELL,
     NO_POLYGON,
     NUM_CELLS,
-    NUM_SPHERE,
-    OI_STATE,
-    RADIUS,
-    SPHERE_SIZE,
     STEP_DOWN,
-    STEP_DOWN_HEIGHT,
     STEP_UP,
     STEP_UP_NORMAL,
     WALKABLE,
-    WALKABLE_ALLOWANCE,
-    WALKABLE_CHECK_POS,
-    WALKABLE_POS,
-    WALKABLE_SCALE,
 )
 
 if TYPE_CHECKING:
     from engine.kernels.types import Array, Ints
 
 
-@kernel
-def _find_in_cell(wf: Array, wi: Ints, s: Array, cell: int) -> int:
-    """Test the mover against a cell; run the step up that a collision asks for.
+@pasted
+def answer_step_up(wf: Array, wi: Ints, s: Array) -> int:
+    """Run the step up that a collision asked for, and end its trace.
 
-    retail: CEnvCell::find_collisions 0x0052C100, 09 3.3
+    retail: 03 11.2-3, 07 5, 07 10.6
     """
-    for shape in range(shape_count(wi, s, cell)):
-        ts = test_shape(wf, wi, s, cell, shape)
+    ts = step_up_or_slide(wf, wi, s)
+    trace_close(wi, s, ts)
+    return ts
+
+
+@pasted
+def find_object(wf: Array, wi: Ints, s: Array, thing: int) -> int:
+    """Test the mover against an object.
+
+    retail: CPhysicsObj::FindObjCollisions 0x0050F050, 08 3
+    """
+    shapes = begin_object(wi, s, thing)
+    if shapes < 0:
+        return OK
+    ts = OK
+    for k in range(shapes):
+        ts = test_object_shape(wf, wi, s, thing, k)
         if ts == NEEDS_STEP_UP:
-            ts = step_up_or_slide(wf, wi, s)
-            trace_close(wi, s, ts)
-        ts = accept_shape(wi, s, cell, shape, ts)
+            ts = answer_step_up(wf, wi, s)
+        if ts != OK:
+            break
+    return accept_object(wi, s, thing, ts)
+
+
+@pasted
+def find_obj_collisions(wf: Array, wi: Ints, s: Array, cell: int) -> int:
+    """Test the mover against the objects of a cell.
+
+    retail: CObjCell::find_obj_collisions 0x0052B750, 09 3.2
+    """
+    for i in range(object_count(wi, s, cell)):
+        thing = object_in(wi, cell, i)
+        if not is_mover(wi, s, thing):
+            ts = find_object(wf, wi, s, thing)
+            if ts != OK:
+                return ts
+    return OK
+
+
+@kernel
+def find_in_cell(wf: Array, wi: Ints, s: Array, cell: int) -> int:
+    """Test the mover against a cell.
+
+    retail: CEnvCell::find_collisions 0x0052C100, CLandCell::find_collisions 0x00532D60, 09 3.2-7
+    """
+    for fixed in range(fixed_count(wi, cell)):
+        ts = test_fixed(wf, wi, s, cell, fixed)
+        if ts == NEEDS_STEP_UP:
+            ts = answer_step_up(wf, wi, s)
+        accept_fixed(wi, s, cell, fixed, ts)
         if ts != OK:
             return ts
-    return OK
+    return find_obj_collisions(wf, wi, s, cell)
 
 
 @pasted
@@ -103,7 +124,7 @@ def insert_into_cell(wf: Array, wi: Ints, s: Array, cell: int, attempts: int) ->
         return COLLIDED
     ts = OK
     for _ in range(attempts):
-        ts = _find_in_cell(wf, wi, s, cell)
+        ts = find_in_cell(wf, wi, s, cell)
         if ts in (OK, COLLIDED):
             return ts
         if ts == SLID:
@@ -125,9 +146,9 @@ def check_other_cells(wf: Array, wi: Ints, s: Array, cell: int) -> int:
     while i < int(s[NUM_CELLS]):
         other = listed_cell(wi, s, i)
         i += 1
-        if other == cell:
+        if other < 0 or other == cell:
             continue
-        ts = _find_in_cell(wf, wi, s, other)
+        ts = find_in_cell(wf, wi, s, other)
         if ts == SLID:
             forget_contact(s)
         if ts in (COLLIDED, ADJUSTED, SLID):
@@ -160,7 +181,7 @@ def transitional_insert(wf: Array, wi: Ints, s: Array, attempts: int) -> int:
             continue
         if stays_in_contact(s):
             return OK
-        stop, ts = _keep_contact(wf, wi, s)
+        stop, ts = keep_contact(wf, wi, s)
         if stop:
             return ts
     return ts
@@ -203,103 +224,3 @@ def _answer_negative_hit(wf: Array, wi: Ints, s: Array) -> int:
     if step_up(wf, wi, s, x, y, z):
         return OK
     return step_up_slide(s)
-
-
-@kernel
-def step_down_in_halves(wf: Array, wi: Ints, s: Array, height: float, z: float) -> tuple[bool, float]:
-    """Step down at once, or in two halves where the step is higher than the sphere.
-
-    Returns whether ground was found, and the height of a single step.
-
-    retail: TI-18, TI-19, FP-5
-    """
-    r = s[GLOBAL_SPHERE + RADIUS]
-    if s[NUM_SPHERE] < 2.0 and r + r < height:
-        height = f32(r * 0.5)
-    if r + r >= height:
-        return step_down(wf, wi, s, height, z), height
-    height = f32(height * 0.5)
-    found = step_down(wf, wi, s, height, z) or step_down(wf, wi, s, height, z)
-    return found, height
-
-
-@pasted
-def _keep_contact(wf: Array, wi: Ints, s: Array) -> tuple[bool, int]:
-    """Step down to stay on the ground, or deal with the edge that the mover is beyond.
-
-    Returns whether the insert ends here, and its answer.
-
-    retail: TI-16...TI-22
-    """
-    height, z = step_limits(s, STEP_DOWN_HEIGHT)
-    s[WALKABLE_ALLOWANCE] = z
-    save_check_pos(s)
-    found, height = step_down_in_halves(wf, wi, s, height, z)
-    if found:
-        s[WALKABLE] = NO_POLYGON
-        return True, OK
-    return _edge_slide(wf, wi, s, height, z)
-
-
-@inlined
-def _leave_ground(s: Array) -> None:
-    """Go back to before the step, without a ground.
-
-    retail: ES-1, ES-4
-    """
-    s[WALKABLE] = NO_POLYGON
-    restore_check_pos(s)
-    forget_contact(s)
-    s[CELL_ARRAY_VALID] = 1.0
-
-
-@pasted
-def _edge_slide(wf: Array, wi: Ints, s: Array, height: float, z: float) -> tuple[bool, int]:
-    """Slide along a cliff or an edge, or step off it.
-
-    Returns whether the insert ends here, and its answer.
-
-    retail: CTransition::edge_slide 0x0050B3D0, ES-1...ES-4
-    """
-    state = int(s[OI_STATE])
-    if not (state & ON_WALKABLE and state & EDGE_SLIDE):
-        _leave_ground(s)
-        return True, OK
-    if s[CONTACT_VALID] != 0.0 and s[CONTACT_PLANE + 2] < z:
-        s[WALKABLE] = NO_POLYGON
-        restore_check_pos(s)
-        ts = cliff_slide(s, CONTACT_PLANE)
-        forget_contact(s)
-        return False, ts
-    if s[WALKABLE] != NO_POLYGON:
-        restore_check_pos(s)
-        forget_contact(s)
-        ts = precipice_slide(wf, s)
-        return ts == COLLIDED, ts
-    if s[CONTACT_VALID] != 0.0:
-        _leave_ground(s)
-        return True, OK
-    return _edge_behind(wf, wi, s, height, z)
-
-
-@pasted
-def _edge_behind(wf: Array, wi: Ints, s: Array, height: float, z: float) -> tuple[bool, int]:
-    """Look for the edge where the mover came from.
-
-    Returns whether the insert ends here, and its answer.
-
-    retail: CTransition::edge_slide 0x0050B3D0, ES-5...ES-7
-    """
-    cx, cy, cz = load(s, GLOBAL_CURR_CENTER)
-    gx, gy, gz = load(s, GLOBAL_SPHERE)
-    add_offset_to_check_pos(s, f32(cx - gx), f32(cy - gy), f32(cz - gz))
-    step_down(wf, wi, s, height, z)
-    forget_contact(s)
-    restore_check_pos(s)
-    if s[WALKABLE] == NO_POLYGON:
-        s[CELL_ARRAY_VALID] = 1.0
-        return True, COLLIDED
-    cache_localspace_sphere(s, s, WALKABLE_POS, s[WALKABLE_SCALE])
-    copy(s, WALKABLE_CHECK_POS, s, LOCALSPACE_SPHERE, SPHERE_SIZE)
-    ts = precipice_slide(wf, s)
-    return ts == COLLIDED, ts

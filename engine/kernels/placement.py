@@ -22,8 +22,9 @@ from engine.constants import (
 from engine.kernels.adjust import adjust_offset
 from engine.kernels.collision_info import forget_contact
 from engine.kernels.compile import inlined, kernel, pasted
+from engine.kernels.edge_slide import step_down_in_halves
 from engine.kernels.frame import frame_cache, frame_get_vector_heading, frame_set_heading
-from engine.kernels.insertion import step_down_in_halves, transitional_insert
+from engine.kernels.insertion import transitional_insert
 from engine.kernels.path import add_offset_to_check_pos, restore_check_pos, save_check_pos, set_check_pos
 from engine.kernels.rounding import f32
 from engine.kernels.validation import placement_insert, validate_placement, validate_placement_transition
@@ -52,7 +53,7 @@ if TYPE_CHECKING:
     from engine.kernels.types import Array, Ints
 
 
-@pasted
+@kernel
 def find_placement_position(wf: Array, wi: Ints, s: Array) -> bool:
     """Put the mover at its current position, or near it, on the ground if there is any.
 
@@ -89,7 +90,7 @@ def _settle(wf: Array, wi: Ints, s: Array) -> None:
     s[WALKABLE] = NO_POLYGON
 
 
-@kernel
+@pasted
 def _fits(wf: Array, wi: Ints, s: Array) -> bool:
     """Try the check position.
 

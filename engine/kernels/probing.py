@@ -10,17 +10,20 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from engine.constants import ADJUSTED, COLLIDED, CONTACT, INVALID, NEEDS_STEP_UP, OK, SLID
+from engine.kernels.cell_array import cell_id, is_outdoors, listed_cell
 from engine.kernels.cells import (
-    accept_shape,
+    accept_fixed,
     build_cell_array,
-    cell_id,
-    is_outdoors,
-    listed_cell,
-    shape_count,
-    test_shape,
+    fixed_count,
+    is_mover,
+    object_count,
+    object_in,
+    test_fixed,
 )
 from engine.kernels.collision_info import forget_contact
-from engine.kernels.compile import inlined, kernel
+from engine.kernels.compile import inlined, kernel, pasted
+from engine.kernels.land_defs import outside_cell
+from engine.kernels.objects import accept_object, begin_object, test_object_shape
 from engine.kernels.path import adjust_check_pos, set_check_pos
 from engine.layout import (
     CELL_ARRAY_VALID,
@@ -33,8 +36,8 @@ from engine.layout import (
     NUM_CELLS,
     OI_STATE,
     OI_STEP_DOWN,
+    ORIGIN,
     STATUS,
-    STATUS_OUTDOORS,
     STATUS_RECURSION,
     STEP_DOWN,
     STEP_UP,
@@ -44,24 +47,53 @@ if TYPE_CHECKING:
     from engine.kernels.types import Array, Ints
 
 
+@inlined
+def _without_step_up(s: Array, ts: int) -> int:
+    """Mark a row in which a collision asks for a step up where retail cannot."""
+    if ts != NEEDS_STEP_UP:
+        return ts
+    s[STATUS] = STATUS_RECURSION
+    return COLLIDED
+
+
+@pasted
+def _probe_object(wf: Array, wi: Ints, s: Array, thing: int) -> int:
+    """Test the mover against an object.
+
+    retail: CPhysicsObj::FindObjCollisions 0x0050F050, 08 3
+    """
+    shapes = begin_object(wi, s, thing)
+    if shapes < 0:
+        return OK
+    ts = OK
+    for k in range(shapes):
+        ts = _without_step_up(s, test_object_shape(wf, wi, s, thing, k))
+        if ts != OK:
+            break
+    return accept_object(wi, s, thing, ts)
+
+
 @kernel
 def _probe_cell(wf: Array, wi: Ints, s: Array, cell: int) -> int:
     """Test the mover against a cell.
 
-    retail: CEnvCell::find_collisions 0x0052C100, 09 3.3
+    retail: CEnvCell::find_collisions 0x0052C100, CLandCell::find_collisions 0x00532D60, 09 3.2-7
     """
-    for shape in range(shape_count(wi, s, cell)):
-        ts = test_shape(wf, wi, s, cell, shape)
-        if ts == NEEDS_STEP_UP:
-            s[STATUS] = STATUS_RECURSION
-            ts = COLLIDED
-        ts = accept_shape(wi, s, cell, shape, ts)
+    for fixed in range(fixed_count(wi, cell)):
+        ts = _without_step_up(s, test_fixed(wf, wi, s, cell, fixed))
+        accept_fixed(wi, s, cell, fixed, ts)
         if ts != OK:
             return ts
+    for i in range(object_count(wi, s, cell)):
+        thing = object_in(wi, cell, i)
+        if not is_mover(wi, s, thing):
+            ts = _probe_object(wf, wi, s, thing)
+            if ts != OK:
+                return ts
     return OK
 
 
-@kernel
+@pasted
 def probe_into_cell(wf: Array, wi: Ints, s: Array, cell: int, attempts: int) -> int:
     """Test the mover against a cell until it is neither adjusted nor slid.
 
@@ -92,14 +124,19 @@ def enter_cell(wf: Array, wi: Ints, s: Array, new_cell: int) -> int:
     if s[STEP_DOWN] != 0.0:
         return COLLIDED
     if is_outdoors(s[CHECK_POS]):
-        s[STATUS] = STATUS_OUTDOORS
-        return COLLIDED
+        o = CHECK_POS + ORIGIN
+        land_cell, x, y = outside_cell(int(s[CHECK_POS]), s[o], s[o + 1])
+        if land_cell == 0:
+            return COLLIDED
+        s[CHECK_POS] = land_cell
+        s[o] = x
+        s[o + 1] = y
     set_check_pos(s, CHECK_POS, NO_CELL)
     s[CELL_ARRAY_VALID] = 1.0
     return OK
 
 
-@kernel
+@pasted
 def probe_other_cells(wf: Array, wi: Ints, s: Array, cell: int) -> int:
     """Test the mover against the other cells that it reaches, and change to the one that contains it.
 
@@ -110,7 +147,7 @@ def probe_other_cells(wf: Array, wi: Ints, s: Array, cell: int) -> int:
     while i < int(s[NUM_CELLS]):
         other = listed_cell(wi, s, i)
         i += 1
-        if other == cell:
+        if other < 0 or other == cell:
             continue
         ts = _probe_cell(wf, wi, s, other)
         if ts == SLID:

@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING
 
 from engine import layout as at
 from engine.kernels.collision_info import set_sliding_normal
-from engine.kernels.compile import entry, inlined, kernel, pasted
+from engine.kernels.compile import entry, inlined, pasted
 from engine.kernels.frame import frame_cache
 from engine.kernels.path import init_path
 from engine.kernels.rounding import f32
@@ -20,7 +20,7 @@ if TYPE_CHECKING:
 def prepare(s: Array, q: Array) -> None:
     """Make a fresh transition of a query: mover, seeds, path; the trace's capacity is kept.
 
-    retail: CTransition::init 0x00509DD0, SPHEREPATH::init 0x0050C330, then the callers of 06
+    retail: what stands in 06 for CPhysicsObj::transition 0x00512DC0
     """
     clear(s)
     _init_object(s, q)
@@ -36,7 +36,7 @@ def prepare(s: Array, q: Array) -> None:
 
 @inlined
 def clear(s: Array) -> None:
-    """Forget the last transition; the trace's capacity is kept.
+    """Forget the last transition; the trace's capacity is kept, and the check position is turned nowhere.
 
     retail: CTransition::init 0x00509DD0, SPHEREPATH::init 0x0050C330
     """
@@ -44,7 +44,9 @@ def clear(s: Array) -> None:
     for i in range(at.STATE_SIZE):
         s[i] = 0.0
     s[at.TRACE_CAPACITY] = capacity
+    s[at.CURR_CELL] = at.NO_CELL
     s[at.CHECK_CELL] = at.NO_CELL
+    s[at.CHECK_POS + at.QUATERNION] = 1.0
     s[at.BACKUP_CELL] = at.NO_CELL
     s[at.LAST_COLLIDED_OBJECT] = at.NO_OBJECT
 
@@ -81,6 +83,9 @@ def _init_object(s: Array, q: Array) -> None:
     s[at.OI_ETHEREAL] = q[at.Q_ETHEREAL]
     s[at.OI_STEP_DOWN] = q[at.Q_MAY_STEP_DOWN]
     s[at.MOVER_GRAVITY] = q[at.Q_GRAVITY]
+    s[at.MOVER_ID] = q[at.Q_MOVER_ID]
+    s[at.MOVER_MISSILE] = q[at.Q_MOVER_MISSILE]
+    s[at.TARGET_ID] = q[at.Q_TARGET_ID]
 
 
 @inlined
@@ -100,16 +105,16 @@ def init_spheres(s: Array, count: int, a: Array, spheres: int, scale: float) -> 
 def _seed(s: Array, q: Array) -> None:
     """Set what the mover brings along from its last move.
 
-    retail: CTransition::init_contact_plane 0x0050E850, init_sliding_normal 0x0050FF20, 04 5
+    retail: what CTransition::init_contact_plane 0x0050E850 and init_sliding_normal 0x0050FF20 set, 04 5
     """
-    copy(s, at.COLLISION_INFO, q, at.Q_COLLISION_INFO, at.COLLISION_INFO_SIZE)
-    s[at.NUM_COLLIDE_OBJECT] = 0.0
-    s[at.LAST_COLLIDED_OBJECT] = at.NO_OBJECT
-    if s[at.SLIDING_VALID] != 0.0:
-        set_sliding_normal(s, s[at.SLIDING_NORMAL], s[at.SLIDING_NORMAL + 1])
+    seed = at.Q_COLLISION_INFO - at.COLLISION_INFO
+    copy(s, at.COLLISION_INFO, q, at.Q_COLLISION_INFO, at.SLIDING_VALID - at.COLLISION_INFO)
+    if q[seed + at.SLIDING_VALID] != 0.0:
+        set_sliding_normal(s, q[seed + at.SLIDING_NORMAL], q[seed + at.SLIDING_NORMAL + 1])
+    s[at.FRAMES_STATIONARY_FALL] = q[seed + at.FRAMES_STATIONARY_FALL]
 
 
-@kernel
+@entry
 def set_path_fields(s: Array, q: Array) -> None:
     """Set the SPHEREPATH fields that a single collision call is made with."""
     s[at.INSERT_TYPE] = q[at.Q_INSERT_TYPE]
@@ -141,6 +146,8 @@ def report(wf: Array, s: Array, out: Array, result: int) -> None:
     out[at.R_KILL_VELOCITY] = s[at.KILL_VELOCITY]
     out[at.R_NODES_VISITED] = s[at.NODES_VISITED]
     out[at.R_POLYGONS_TESTED] = s[at.POLYGONS_TESTED]
+    out[at.R_CELLS_LISTED] = s[at.CELLS_LISTED]
+    out[at.R_OBJECTS_TESTED] = s[at.OBJECTS_TESTED]
     out[at.R_STATUS] = s[at.STATUS]
 
 
@@ -158,3 +165,5 @@ def _report_path(wf: Array, s: Array, out: Array) -> None:
     out[at.R_NEG_POLY_HIT] = s[at.NEG_POLY_HIT]
     out[at.R_NEG_STEP_UP] = s[at.NEG_STEP_UP]
     copy(out, at.R_NEG_COLLISION_NORMAL, s, at.NEG_COLLISION_NORMAL, at.VECTOR_SIZE)
+    out[at.R_OBSTRUCTION_ETHEREAL] = s[at.OBSTRUCTION_ETHEREAL]
+    out[at.R_HITS_INTERIOR_CELL] = s[at.HITS_INTERIOR_CELL]

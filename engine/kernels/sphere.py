@@ -18,15 +18,17 @@ if TYPE_CHECKING:
 
 
 @inlined
-def moved_so_far(s: Array) -> Vector:
-    """Return the way of sphere 0 from the current to the check position, in the current block.
+def moved_so_far(s: Array, sphere: int, center: int) -> Vector:
+    """Return the way from the current to the check position, in the current block.
+
+    `sphere` and `center` are where the sphere's two centres lie in the row.
 
     retail: 07 6.B.3
     """
     bx, by = block_offset(s[CURR_POS], s[CHECK_POS])
-    gx = f32(bx + (s[GLOBAL_SPHERE] - s[GLOBAL_CURR_CENTER]))
-    gy = f32(by + (s[GLOBAL_SPHERE + 1] - s[GLOBAL_CURR_CENTER + 1]))
-    tz = f32(s[GLOBAL_SPHERE + 2] - s[GLOBAL_CURR_CENTER + 2])
+    gx = f32(bx + (s[sphere] - s[center]))
+    gy = f32(by + (s[sphere + 1] - s[center + 1]))
+    tz = f32(s[sphere + 2] - s[center + 2])
     return gx, gy, f32(0.0 + tz)
 
 
@@ -50,11 +52,22 @@ def slide_sphere(s: Array, at: int) -> int:
 
     retail: CSphere::slide_sphere 0x00537440, 07 6.B.1-9
     """
+    return slide_either_sphere(s, at, GLOBAL_SPHERE, GLOBAL_CURR_CENTER)
+
+
+@kernel
+def slide_either_sphere(s: Array, at: int, sphere: int, center: int) -> int:
+    """Slide one of the mover's spheres, whose two centres lie at `sphere` and `center` in the row.
+
+    The obstacle's normal lies at `at`, and may be overwritten.
+
+    retail: CSphere::slide_sphere 0x00537440, 07 6.B.1-9
+    """
     cx, cy, cz = load(s, at)
     if cx == 0.0 and cy == 0.0 and cz == 0.0:
-        return _back_half_way(s)
+        return _back_half_way(s, sphere, center)
     set_collision_normal(s, cx, cy, cz)
-    gx, gy, gz = moved_so_far(s)
+    gx, gy, gz = moved_so_far(s, sphere, center)
     nx, ny, nz = sliding_reference(s)
     dx = f32(cy * nz - cz * ny)
     dy = nx * cz - nz * cx
@@ -75,14 +88,14 @@ def slide_sphere(s: Array, at: int) -> int:
 
 
 @kernel
-def _back_half_way(s: Array) -> int:
+def _back_half_way(s: Array, sphere: int, center: int) -> int:
     """Without a normal: go half of the way back.
 
     retail: 07 6.B.1
     """
-    ox = f32((s[GLOBAL_CURR_CENTER] - s[GLOBAL_SPHERE]) * 0.5)
-    oy = f32(f32(s[GLOBAL_CURR_CENTER + 1] - s[GLOBAL_SPHERE + 1]) * 0.5)
-    oz = f32(f32(s[GLOBAL_CURR_CENTER + 2] - s[GLOBAL_SPHERE + 2]) * 0.5)
+    ox = f32((s[center] - s[sphere]) * 0.5)
+    oy = f32(f32(s[center + 1] - s[sphere + 1]) * 0.5)
+    oz = f32(f32(s[center + 2] - s[sphere + 2]) * 0.5)
     add_offset_to_check_pos(s, ox, oy, oz)
     return ADJUSTED
 

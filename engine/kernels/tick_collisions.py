@@ -2,21 +2,25 @@
 
 from __future__ import annotations
 
-import math
 from typing import TYPE_CHECKING
 
 from engine.body_layout import (
     B_COLLIDING,
     B_ELASTICITY,
     B_HAS_WEENIE,
+    B_NUM_RECORDS,
     B_PHYSICS_TIME,
+    B_RECORDS,
     B_STATE,
+    B_STATUS,
     B_TRACKS_OBJECTS,
     B_TRANSIENT,
     B_VELOCITY,
-    BODY_SIZE,
+    MAX_RECORDS,
     RECORD_ETHEREAL,
     RECORD_SIZE,
+    RECORD_TIME,
+    STATUS_CROWDED,
 )
 from engine.constants import (
     COLLIDES_AS_ENVIRONMENT_PS,
@@ -39,7 +43,7 @@ from engine.constants import (
 from engine.kernels.compile import entry, inlined, kernel
 from engine.kernels.rounding import f32
 from engine.kernels.tick_velocity import has_bit, set_bit
-from engine.kernels.vector import load, store
+from engine.kernels.vector import copy, load, store
 from engine.layout import (
     COLLIDED_WITH_ENVIRONMENT,
     COLLISION_NORMAL,
@@ -48,9 +52,9 @@ from engine.layout import (
     NUM_COLLIDE_OBJECT,
     OBJECT_INTS,
     OBJECT_STATE,
-    WORLD_CELL_LIST,
-    WORLD_CELLS,
+    OBJECT_WEENIE,
     WORLD_OBJECT_INTS,
+    WORLD_TOUCHED,
 )
 
 if TYPE_CHECKING:
@@ -61,17 +65,16 @@ if TYPE_CHECKING:
 def track_touched_objects(wi: Ints, s: Array, b: Array) -> bool:
     """Take notice of what the transition touched; say whether something was reported.
 
-    No object of a world has a weenie.
-
     retail: CPhysicsObj::handle_all_collisions 0x00514780, HC-2
     """
     reported = False
     if b[B_TRACKS_OBJECTS] != 0.0:
-        first = wi[WORLD_CELL_LIST] + wi[WORLD_CELLS]
+        first = wi[WORLD_TOUCHED]
         for i in range(first, first + int(s[NUM_COLLIDE_OBJECT])):
             thing = int(s[i])
-            state = wi[wi[WORLD_OBJECT_INTS] + OBJECT_INTS * thing + OBJECT_STATE]
-            reported |= track_object_collision(b, thing, state, False)
+            record = wi[WORLD_OBJECT_INTS] + OBJECT_INTS * thing
+            has_weenie = wi[record + OBJECT_WEENIE] != 0
+            reported |= track_object_collision(b, thing, wi[record + OBJECT_STATE], has_weenie)
     return reported
 
 
@@ -79,17 +82,36 @@ def track_touched_objects(wi: Ints, s: Array, b: Array) -> bool:
 def track_object_collision(b: Array, thing: int, state: int, has_weenie: bool) -> bool:
     """Remember a touched object, and report it unless it is remembered already.
 
-    `thing`: its place in the collision table; `state`: its PhysicsState.
+    `thing`: its index in the world; `state`: its PhysicsState.
 
     retail: CPhysicsObj::track_object_collision 0x00513F10, 06 7
     """
     if state & STATIC:
         return _report_environment_collision(b)
-    record = BODY_SIZE + RECORD_SIZE * thing
-    known = not math.isnan(b[record])
-    b[record] = b[B_PHYSICS_TIME]
+    if _remember(b, thing, state):
+        return False
+    return _report_object_collision(b, state, has_weenie)
+
+
+@kernel
+def _remember(b: Array, thing: int, state: int) -> bool:
+    """Note when an object was touched; say whether it was remembered already.
+
+    retail: 06 7
+    """
+    count = int(b[B_NUM_RECORDS])
+    place = 0
+    while place < count and b[B_RECORDS + RECORD_SIZE * place] != thing:
+        place += 1
+    if place == MAX_RECORDS:
+        b[B_STATUS] = STATUS_CROWDED
+        return True
+    record = B_RECORDS + RECORD_SIZE * place
+    b[record] = thing
+    b[record + RECORD_TIME] = b[B_PHYSICS_TIME]
     b[record + RECORD_ETHEREAL] = 1.0 if state & ETHEREAL else 0.0
-    return False if known else _report_object_collision(b, state, has_weenie)
+    b[B_NUM_RECORDS] = max(count, place + 1)
+    return place < count
 
 
 @kernel
@@ -148,10 +170,14 @@ def _report_collision_end(b: Array) -> None:
 
     retail: HC-3
     """
-    for record in range(BODY_SIZE, len(b), RECORD_SIZE):
+    kept = 0
+    for place in range(int(b[B_NUM_RECORDS])):
+        record = B_RECORDS + RECORD_SIZE * place
         memory = ETHEREAL_MEMORY if b[record + RECORD_ETHEREAL] != 0.0 else COLLISION_MEMORY
-        if b[B_PHYSICS_TIME] - b[record] > memory:
-            b[record] = math.nan
+        if not b[B_PHYSICS_TIME] - b[record + RECORD_TIME] > memory:
+            copy(b, B_RECORDS + RECORD_SIZE * kept, b, record, RECORD_SIZE)
+            kept += 1
+    b[B_NUM_RECORDS] = kept
 
 
 @entry

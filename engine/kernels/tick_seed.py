@@ -9,6 +9,7 @@ from engine.body_layout import (
     B_CONTACT_CELL_ID,
     B_CONTACT_PLANE,
     B_FREE_HEADING,
+    B_ID,
     B_NUM_SPHERE,
     B_POSITION,
     B_SCALE,
@@ -30,6 +31,10 @@ from engine.constants import (
     ETHEREAL,
     FREE_ROTATE,
     GRAVITY_PS,
+    IS_IMPENETRABLE,
+    IS_PK,
+    IS_PKLITE,
+    IS_PLAYER,
     MISSILE,
     ON_WALKABLE,
     ON_WALKABLE_TS,
@@ -64,6 +69,8 @@ from engine.layout import (
     LOCAL_LOW_POINT,
     LOCAL_SPHERE,
     MOVER_GRAVITY,
+    MOVER_ID,
+    MOVER_MISSILE,
     NUM_SPHERE,
     OI_ETHEREAL,
     OI_STATE,
@@ -128,37 +135,44 @@ def _get_object_info(s: Array, b: Array, admin_move: bool) -> int:
 def _seed_contact(s: Array, b: Array) -> int:
     """Seed the contact plane, or, when the body leaves it, only as the last known one.
 
-    In that case the cell id goes to the contact plane's field all the same.
+    In that case the cell id goes to the contact plane's field all the same. What counts as water is the
+    body's bit itself, 8.
 
     retail: GO-3...GO-5; CTransition::init_contact_plane 0x0050E850,
     init_last_known_contact_plane 0x0050E8E0
     """
-    water = 1.0 if has_bit(b, B_TRANSIENT, WATER_CONTACT_TS) else 0.0
+    water = float(int(b[B_TRANSIENT]) & WATER_CONTACT_TS)
     s[LAST_KNOWN_VALID] = 1.0
     copy(s, LAST_KNOWN_PLANE, b, B_CONTACT_PLANE, PLANE_SIZE)
     s[LAST_KNOWN_IS_WATER] = water
-    s[CONTACT_CELL_ID] = b[B_CONTACT_CELL_ID]
     if leaves_contact(b):
+        s[CONTACT_CELL_ID] = b[B_CONTACT_CELL_ID]
         return 0
     s[LAST_KNOWN_CELL_ID] = b[B_CONTACT_CELL_ID]
     s[CONTACT_VALID] = 1.0
     copy(s, CONTACT_PLANE, b, B_CONTACT_PLANE, PLANE_SIZE)
     s[CONTACT_IS_WATER] = water
+    s[CONTACT_CELL_ID] = b[B_CONTACT_CELL_ID]
     return CONTACT | ON_WALKABLE if has_bit(b, B_TRANSIENT, ON_WALKABLE_TS) else CONTACT
 
 
 @inlined
 def _init_object(s: Array, b: Array, flags: int) -> None:
-    """Set what the mover is and may do.
+    """Set what the mover is and may do; the bits of its game object one by one, as a trace tells them.
 
     retail: OBJECTINFO::init 0x0050CF30, OI-1...OI-4
     """
-    s[OI_STATE] = flags | int(b[B_WEENIE_BITS])
+    s[OI_STATE] = flags
+    weenie = int(b[B_WEENIE_BITS])
+    for bit in (IS_IMPENETRABLE, IS_PLAYER, IS_PK, IS_PKLITE):
+        s[OI_STATE] = int(s[OI_STATE]) | (weenie & bit)
     s[STEP_UP_HEIGHT] = b[B_STEP_UP_HEIGHT]
     s[STEP_DOWN_HEIGHT] = b[B_STEP_DOWN_HEIGHT]
     s[OI_ETHEREAL] = int(b[B_STATE]) & ETHEREAL
     s[OI_STEP_DOWN] = 0.0 if has_bit(b, B_STATE, MISSILE) else 1.0
     s[MOVER_GRAVITY] = 1.0 if has_bit(b, B_STATE, GRAVITY_PS) else 0.0
+    s[MOVER_ID] = b[B_ID]
+    s[MOVER_MISSILE] = 1.0 if has_bit(b, B_STATE, MISSILE) else 0.0
 
 
 @inlined

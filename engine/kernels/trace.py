@@ -23,6 +23,10 @@ LANDING_CALL: Final = frozen(ord("L"))
 CONTACT_CALL: Final = frozen(ord("K"))
 CLIPPED_CALL: Final = frozen(ord("M"))
 AIRBORNE_CALL: Final = frozen(ord("A"))
+TERRAIN_CALL: Final = frozen(ord("T"))
+BUILDING_CALL: Final = frozen(ord("B"))
+SPHERE_CALL: Final = frozen(ord("S"))
+CYLSPHERE_CALL: Final = frozen(ord("C"))
 _ZERO: Final = frozen(ord("0"))
 
 

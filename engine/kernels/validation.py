@@ -149,16 +149,18 @@ def _remember_contact(s: Array) -> None:
 
     retail: VT-11, VT-12
     """
-    state = int(s[OI_STATE]) & ~(CONTACT | ON_WALKABLE)
+    state = int(s[OI_STATE])
     s[LAST_KNOWN_VALID] = s[CONTACT_VALID]
-    if s[CONTACT_VALID] != 0.0:
-        copy_plane(s, LAST_KNOWN_PLANE, CONTACT_PLANE)
-        s[LAST_KNOWN_CELL_ID] = s[CONTACT_CELL_ID]
-        s[LAST_KNOWN_IS_WATER] = s[CONTACT_IS_WATER]
-        state |= CONTACT
-        if s[CONTACT_PLANE + 2] >= FLOOR_Z:
-            state |= ON_WALKABLE
+    if s[CONTACT_VALID] == 0.0:
+        s[OI_STATE] = state & ~(CONTACT | ON_WALKABLE)
+        return
+    copy_plane(s, LAST_KNOWN_PLANE, CONTACT_PLANE)
+    s[LAST_KNOWN_CELL_ID] = s[CONTACT_CELL_ID]
+    s[LAST_KNOWN_IS_WATER] = s[CONTACT_IS_WATER]
+    state |= CONTACT
     s[OI_STATE] = state
+    walkable = s[CONTACT_PLANE + 2] >= FLOOR_Z
+    s[OI_STATE] = state | ON_WALKABLE if walkable else state & ~ON_WALKABLE
 
 
 @pasted
@@ -189,7 +191,7 @@ def placement_insert(wf: Array, wi: Ints, s: Array) -> int:
     return ts
 
 
-@kernel
+@pasted
 def validate_placement(wf: Array, wi: Ints, s: Array, ts: int) -> int:
     """Accept a placement; test one that was moved once more.
 

@@ -98,7 +98,7 @@ def test_retail_answers_random_queries(family: str) -> None:
     oracle = OracleCandidate()
     from conformance import bug_hunt
 
-    bug_hunt._draw(FAMILIES[family], 20, lambda query, _: answers.append(oracle.answer(query)))
+    bug_hunt.draw_queries(FAMILIES[family], 20, lambda query, _: answers.append(oracle.answer(query)))
     assert len(answers) == 20
     assert all(isinstance(answer, Result) for answer in answers)
 

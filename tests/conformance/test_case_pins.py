@@ -5,7 +5,7 @@ from __future__ import annotations
 import pytest
 
 from conformance.case_pins import make_pins
-from conformance.compare import Tolerance
+from conformance.compare import Tolerance, pin_differences
 from conformance.pins import Pin
 
 FREE = {"value": -94, "tolerance": 1e-4, "unit": "m", "inclusive": True, "reason": "visible"}
@@ -60,3 +60,20 @@ def test_pins_that_do_not_fit(expect: dict[str, object], path: tuple[str | int, 
     """Unknown fields, wrong types, freedom where there is none."""
     _, (fault,) = make_pins("find_collisions", expect)
     assert (fault.path, fault.found) == (path, found)
+
+
+def test_a_list_is_pinned_with_its_length() -> None:
+    """One item more, or one less, is a difference; so is one where there should be none."""
+    pins, faults = make_pins("find_cell_list", {"cells": [[0xA9B40100, 1]]})
+    assert faults == []
+    right = {"cells": [[0xA9B40100, 1]], "new_cell": 0, "hits_interior_cell": 0, "added_outside": 0}
+    assert pin_differences(pins, right, op="find_cell_list") == []
+    longer = {**right, "cells": [[0xA9B40100, 1], [0xA9B40101, 1]]}
+    (found,) = pin_differences(pins, longer, op="find_cell_list")
+    assert (found.name, found.note) == ("cells", "1 items, candidate 2")
+    shorter = {**right, "cells": []}
+    assert "cells" in {found.name for found in pin_differences(pins, shorter, op="find_cell_list")}
+    none, _ = make_pins("find_cell_list", {"cells": []})
+    assert [found.name for found in pin_differences(none, right, op="find_cell_list")] == ["cells"]
+    vector, _ = make_pins("find_collisions", {"collision_normal": [0, 0, 1]})
+    assert [pin.count for pin in vector] == [None, None, None]

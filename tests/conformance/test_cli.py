@@ -11,9 +11,12 @@ from shipped_vectors import VECTORS
 
 from conformance import cli
 from conformance.commands import verify
+from conformance.query import Skipped
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
+
+    from conformance.query import Outcome, Query
 
 MATH = VECTORS / "math.jsonl"
 SEED_BUG = ("--id", "fc_00001", "--id", "fc_00002", "--candidate", "bug:cell-origin")
@@ -80,12 +83,24 @@ def test_verify_counts_advisory_records(tmp_path: Path, capsys: pytest.CaptureFi
     assert lines[-1] == "total: 1 passed, 0 failed, 0 skipped, 2 advisory (1 agree)"
 
 
-def test_verify_counts_skips_by_reason(capsys: pytest.CaptureFixture[str]) -> None:
+class Idle:
+    """A candidate that does nothing."""
+
+    name = "idle"
+
+    def answer(self, query: Query) -> Outcome:
+        """Skip."""
+        return Skipped(f"no {query.op}")
+
+
+def test_verify_counts_skips_by_reason(
+    monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
     """What a candidate does not do is counted and told; nothing compared at all is 4."""
+    monkeypatch.setattr(verify, "candidate_from", lambda _: Idle())
     code, lines = run(capsys, "verify", VECTORS / "world_walk.jsonl")
     assert code == 4
-    assert "0 passed, 0 failed, 17 skipped (" in lines[0]
-    assert ": 17), 0 advisory" in lines[0]
+    assert "0 passed, 0 failed, 17 skipped (no world_walk: 17), 0 advisory" in lines[0]
     assert lines[-1] == "nothing was compared"
 
 

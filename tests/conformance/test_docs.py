@@ -10,6 +10,8 @@ import pytest
 from conformance.candidates.oracle_candidate import OracleCandidate
 from conformance.cli import main
 from conformance.loader import load_file
+from conformance.schema.query import MODEL_OF_OP
+from conformance.schema.scene import SceneModel
 from conformance.verdict import judge
 
 DOCS = Path(__file__).parents[2] / "docs"
@@ -46,7 +48,7 @@ def test_the_first_case_holds(tutorial: Path) -> None:
 
 def test_the_walk_holds(tmp_path: Path) -> None:
     """The walk of the page is read without a complaint, and retail meets its pins."""
-    (walk,) = [block for block in blocks("yaml") if "op: walk" in block]
+    (walk,) = [block for block in blocks("yaml") if "id: my-first-walk" in block]
     file = tmp_path / "walk.yaml"
     file.write_text(walk, encoding="utf-8")
     loaded = load_file(file)
@@ -55,6 +57,29 @@ def test_the_walk_holds(tmp_path: Path) -> None:
     oracle = OracleCandidate()
     verdict = judge(case, oracle, oracle)
     assert (verdict.compared, verdict.failures) == (5, [])
+
+
+def test_the_world_holds(tmp_path: Path) -> None:
+    """The house of the page is read without a complaint, and retail meets its pins, there and shifted."""
+    (world,) = [block for block in blocks("yaml") if "doorways:" in block]
+    file = tmp_path / "world.yaml"
+    file.write_text(world, encoding="utf-8")
+    loaded = load_file(file)
+    assert not loaded.problems
+    (case,) = loaded.cases
+    oracle = OracleCandidate()
+    verdict = judge(case, oracle, oracle)
+    assert (case.op, verdict.compared, verdict.failures) == ("world_walk", 5, [])
+
+
+def test_the_page_names_every_key_of_a_world() -> None:
+    """Keys of a scene, and the operations that a world can be asked."""
+    page = (DOCS / "writing-cases.md").read_text(encoding="utf-8")
+    for key in SceneModel.model_fields:
+        assert f"`{key}`" in page
+    for op in MODEL_OF_OP:
+        if MODEL_OF_OP[op].__module__.endswith("world_queries") and not op.startswith("landdefs_"):
+            assert f"`{op}`" in page
 
 
 def test_the_mistake_is_told_as_shown(tutorial: Path, capsys: pytest.CaptureFixture[str]) -> None:

@@ -5,6 +5,7 @@ from __future__ import annotations
 import struct
 from typing import Any
 
+import numpy as np
 import pytest
 from shipped_vectors import VECTORS, library, records
 
@@ -12,10 +13,11 @@ from conformance.candidates import known_bugs
 from conformance.candidates.bug_candidate import BugCandidate, KnownBug
 from conformance.candidates.oracle_candidate import OracleCandidate
 from conformance.candidates.oracle_ops import geometry
-from conformance.candidates.replacements import Method
+from conformance.candidates.replacements import Method, replaced
 from conformance.compare import differences, pin_differences
 from conformance.loader import Vary, load_paths
 from conformance.query import Errored, Fields, Query, Result
+from oracle import land_block_struct
 from oracle.env_cell import EnvCell
 
 CELL = 0xA9B40151
@@ -25,6 +27,8 @@ POSE = {"cell": CELL, "origin": [100.0, 50.0, 94.0], "rotation": [0.9238795, 0.0
 
 CASES = {case.id: case for case in load_paths(vary=Vary(poses=0)).cases}
 """The built-in cases in the pose they are pinned in."""
+BEYOND = (2838, 13341)
+"""A cell outside of the world (2048 a side) that the decimal constant cuts differently; found by search."""
 NEIGHBOURS = {
     "cell-origin": "step-down-rests-on-floor",
     "cell-rotation": "origin-step-down-touching",
@@ -49,6 +53,13 @@ NEIGHBOURS = {
     "no-substep-reset": "transition-fall-and-land",
     "third-step-down": "bug-no-substep-reset",
     "neg-poly-kept": "transition-wall-slide",
+    "building-across-border": "bug-cell-list-unpruned",
+    "portal-side": "bug-cell-list-unpruned",
+    "cell-list-unpruned": "bug-building-across-border",
+    "terrain-split-decimal": "bug-building-across-border",
+    "cylinder-step-up-unrotated": "cylinder-walker-steps-upon",
+    "sphere-landing-dry": "sphere-step-down-onto",
+    "shape-fall-through": "object-hit-is-recorded",
 }
 """For each bug a case that goes the same way and must not notice it."""
 
@@ -173,6 +184,28 @@ def test_last_known_cell_is_caught_by_vectors() -> None:
     names = ["contact_plane.cell_id", "last_known_contact_plane.cell_id"]
     assert found["tk_02222"] == names
     assert all(wrong in ([], names) for wrong in found.values())
+
+
+def test_no_cell_is_cut_differently_by_the_decimal() -> None:
+    """The peers' constant turns over 34 numbers later than 2^-32; no cell of the world is that near."""
+    half, decimal = 0x80000000, 2.3283064e-10
+    assert (half + 33) * decimal < 0.5 <= (half + 34) * decimal
+    columns = np.arange(256 * 8, dtype=np.int64)
+    x, y = columns[:, np.newaxis], columns[np.newaxis, :]
+    mixed = (y * ((214614067 * x + 1813693831) % 2**32) - 1109124029 * x - 1369149221) % 2**32
+    distances = np.abs(mixed - half)
+    assert distances.min() == 440
+    assert np.unravel_index(distances.argmin(), distances.shape) == (657, 1857)
+
+
+def test_terrain_split_decimal_is_wrong_beyond_the_world() -> None:
+    """The mistake is there: at coordinates that no id can name a cell is cut the other way."""
+    retail = land_block_struct.cuts_sw_to_ne
+    x, y = BEYOND
+    with replaced(bug("terrain-split-decimal").bug.replacements):
+        assert land_block_struct.cuts_sw_to_ne is not retail
+        assert not land_block_struct.cuts_sw_to_ne(x, y)
+    assert retail(x, y)
 
 
 def test_every_bug_is_described() -> None:

@@ -189,7 +189,8 @@ def test_the_built_in_cases() -> None:
         "path_clipped",
         "initial_placement",
     }
-    assert {case.op for case in loaded.cases if "walk" in case.tags} == {"walk", "body_walk"}
+    walks = {case.op for case in loaded.cases if "walk" in case.tags}
+    assert walks == {"walk", "world_walk", "body_walk"}
     assert all(case.expect for case in loaded.cases)
     assert {case.location.file for case in loaded.cases}
     assert BUILT_IN_CASES.is_dir()

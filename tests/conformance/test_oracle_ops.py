@@ -10,14 +10,17 @@ from typing import Any
 
 import pytest
 
-from conformance.candidates.oracle_ops import bsp_ops, math_ops, polygon_ops
+from conformance.candidates.oracle_ops import bsp_ops, math_ops, object_ops, polygon_ops
 from conformance.candidates.oracle_ops.geometry import oracle_geometry
+from conformance.inputs import read_inputs
 from conformance.query import Query
 from conformance.scenes.model import Geometry, Leaf, Node, Polygon, Tree
+from conformance.vector_library import Library
 
-OPS = {**math_ops.OPS, **polygon_ops.OPS, **bsp_ops.OPS}
+OPS = {**math_ops.OPS, **polygon_ops.OPS, **bsp_ops.OPS, **object_ops.OPS}
 VECTORS = Path(__file__).parents[2] / "conformance" / "vectors"
-FILES = ("math", "polygon", "bsp", "boundary_math", "boundary_polygon", "boundary_bsp")
+FILES = ("math", "polygon", "bsp", "boundary_math", "boundary_polygon", "boundary_bsp", "sphere", "objects")
+LIBRARY = Library(VECTORS)
 DEEP = 20_000
 """More levels than the interpreter allows calls."""
 
@@ -46,18 +49,14 @@ def first_records() -> dict[str, dict[str, Any]]:
 def test_every_operation_has_a_record() -> None:
     """The vectors know each operation, so the next test is not empty."""
     assert set(first_records()) == set(OPS)
-    assert len(OPS) == 39
+    assert len(OPS) == 42
 
 
 @pytest.mark.parametrize("op", sorted(OPS))
 def test_outputs_have_the_record_s_fields_and_plain_numbers(op: str) -> None:
     """Exactly the fields of ``expect``; floats, ints, lists and null, nothing of the oracle's own."""
     record = first_records()[op]
-    geometries = {}
-    for line in (VECTORS / "geometries.jsonl").read_text(encoding="utf-8").splitlines():
-        if f'"name":"{record.get("geometry")}"' in line:
-            geometries[record["geometry"]] = Geometry.from_record(json.loads(line))
-    fields = OPS[op](Query(op, record, geometries))
+    fields = OPS[op](Query(op, read_inputs(op, record), LIBRARY.geometries))
     assert set(fields) == set(record["expect"])
     assert plain(fields)
 

@@ -17,6 +17,7 @@ from oracle.errors import NotPortedError
 from oracle.physics_object import PhysicsObj
 from oracle.physics_state import ETHEREAL_PS, MISSILE_PS
 from oracle.position import Position
+from oracle.transient_state import ACTIVE_TS, CHECK_ETHEREAL_TS
 from oracle.world import World
 
 if TYPE_CHECKING:
@@ -53,15 +54,13 @@ def falling(**fields: Any) -> dict[str, Any]:
     return {**given, "position": {**position, "origin": [x, y, z + 100.0]}, "velocity": [0.0] * 3, **fields}
 
 
-def test_a_world_is_skipped_by_what_it_has() -> None:
-    """The reason names terrain, buildings and objects."""
-    record = next(r for r in records(TICK) if "world" in r.query.inputs)
-    outcome = OracleCandidate().answer(record.query)
+def test_what_is_not_specified_is_skipped() -> None:
+    """A body that would become solid again asks its cells what no document says."""
+    query = body_walk()
+    body = {**query.inputs["body"], "transient_state": ACTIVE_TS | CHECK_ETHEREAL_TS}
+    outcome = OracleCandidate().answer(Query(query.op, {**query.inputs, "body": body}, query.geometries))
     assert isinstance(outcome, Skipped)
-    assert "terrain" in outcome.reason
-    bare = {**record.query.inputs["world"], "buildings": [], "objects": []}
-    outcome = OracleCandidate().answer(Query("body_walk", {**record.query.inputs, "world": bare}))
-    assert outcome == Skipped("not ported yet: a world with terrain (07…10)")
+    assert "check_collisions" in outcome.reason
 
 
 def test_gravity_moves_in_the_second_tick() -> None:
@@ -148,7 +147,12 @@ def test_a_body_in_no_cell_is_not_simulated() -> None:
 def test_a_cell_that_only_has_a_name() -> None:
     """Whatever else is asked of it says what is missing."""
     cell = NamedCell(7)
-    for question in (cell.find_collisions, cell.point_in_cell, cell.find_transit_cells):
+    for question in (
+        cell.find_collisions,
+        cell.point_in_cell,
+        cell.find_transit_cells,
+        cell.find_transit_cells_of_parts,
+    ):
         with pytest.raises(NotPortedError, match="0x00000007"):
             question()
 

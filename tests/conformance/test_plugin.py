@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 
 import pytest
 
-from conformance import items, plugin
+from conformance import items, plugin, profiles
 from conformance.query import Query, Skipped
 
 if TYPE_CHECKING:
@@ -15,6 +15,8 @@ if TYPE_CHECKING:
 
 pytest_plugins = ["pytester"]
 
+IMPORTED = profiles
+"""A run within this process forgets what it imports; half of hypothesis cannot be imported a second time."""
 ROOT = Path(__file__).parents[2]
 BUILT_IN = ROOT / "conformance" / "cases"
 ORIGIN = BUILT_IN / "contact-plane" / "origin.yaml"
@@ -69,6 +71,34 @@ class NeverCandidate:
     def answer(self, query: Query) -> Skipped:
         """Skip."""
         return Skipped(f"no {query.op}")
+
+
+def test_a_failure_shows_who_wrote_what(run: pytest.Pytester) -> None:
+    """Retail's writes and the bug's, the first that differ marked; only of the topics that are asked for."""
+    options = ("--cases", str(ORIGIN), "--candidate", "bug:cell-origin", "-k", "origin-step-down-touching")
+    plane = "[[]cp-write] ContactPlane: n=(0,0,0) D=0.000 -> n=(0,0,1)"
+    call = "    [[]bsp] Call: D -> ADJUSTED caller=outside"
+    result = run.runpytest_inprocess(*options)
+    result.stdout.fnmatch_lines(
+        [
+            "  writes (cp-write):",
+            "    [[]cp-write] ContactPlaneValid: 0 -> 1 caller=step_sphere_down",
+            f"  > retail: {plane} D=-94.000 caller=step_sphere_down",
+            f"  > bug:cell-origin: {plane} D=-0.000 caller=step_sphere_down",
+            "  scene: *",
+        ]
+    )
+    result.stdout.no_fnmatch_line(call)
+    result = run.runpytest_inprocess(*options, "--trace-writes", "bsp,walkable")
+    result.stdout.fnmatch_lines(["  writes (bsp, walkable):", call, "    both write the same"])
+    result.stdout.fnmatch_lines(["  rerun: * --trace-writes bsp,walkable*"])
+
+
+def test_an_unknown_topic_is_a_usage_error(run: pytest.Pytester) -> None:
+    """Before anything is run."""
+    result = run.runpytest_inprocess("--cases", str(ORIGIN), "--trace-writes", "cp-wrte")
+    assert result.ret == pytest.ExitCode.USAGE_ERROR
+    result.stderr.fnmatch_lines(["*--trace-writes: unknown topic 'cp-wrte'. Did you mean 'cp-write'?*"])
 
 
 def test_the_bug_that_this_suite_began_with(run: pytest.Pytester) -> None:

@@ -39,6 +39,9 @@ def test_the_shipped_index_is_that_of_the_documents() -> None:
         "BSPLEAF::find_walkable FW-5",
         "CTransition::transitional_insert",
         "CSphere::intersects §3.1",
+        "CCylSphere::intersects_sphere §10.8",
+        "LandDefs::gid_to_lcoord §2.4",
+        "CLandBlockStruct::ConstructPolygons §3.3",
     ],
 )
 def test_good_citations(citation: str) -> None:

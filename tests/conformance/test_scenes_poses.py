@@ -14,12 +14,14 @@ from hypothesis import strategies as st
 
 import conformance
 from conformance.floats import is_float32
+from conformance.outputs import OUTPUTS
 from conformance.query import Query
 from conformance.scenes.algebra import dot, length, subtract
 from conformance.scenes.model import Pose
 from conformance.scenes.poses import (
     IDENTITY,
     MOVABLE_OPS,
+    NOT_MOVABLE,
     Transform,
     move_direction,
     move_plane,
@@ -31,6 +33,7 @@ from conformance.scenes.poses import (
 )
 from conformance.scenes.rotations import rotate, rows_from_quaternion
 from conformance.scenes.validate import check_rotation
+from conformance.vector_library import Library
 
 VECTORS = Path(conformance.__file__).parent / "vectors"
 MATH_OPS = {"adjust_offset", "cache_localspace_sphere", "cliff_slide", "slide_sphere"}
@@ -66,17 +69,17 @@ POSES = st.integers(0, 10_000).map(lambda seed: seeded_poses(12, seed)[seed % 12
 
 
 def record_of(op: str) -> dict[str, Any]:
-    """Return the inputs of the first shipped vector of an operation."""
-    files = ("math.jsonl", "find_collisions.jsonl", "transition.jsonl", "walk.jsonl", "tick.jsonl")
-    records = (
-        json.loads(line)
-        for name in files
-        for line in (VECTORS / name).read_text(encoding="utf-8").splitlines()
-    )
-    record = next(record for record in records if record["op"] == op)
-    return {
-        key: value for key, value in record.items() if key not in {"id", "op", "tag", "expect", "uncertain"}
-    }
+    """Return the inputs of the first shipped vector of an operation, its world whole but without land."""
+    library = Library(VECTORS)
+    for path in sorted(VECTORS.glob("*.jsonl")):
+        for line in path.read_text(encoding="utf-8").splitlines():
+            record = json.loads(line)
+            if record.get("op") == op:
+                inputs = {key: value for key, value in record.items() if key not in NOT_INPUTS}
+                if "world" in inputs:
+                    inputs["world"] = {**library.worlds[inputs["world"]], "landblocks": [], "buildings": []}
+                return inputs
+    raise AssertionError(op)
 
 
 def test_known_motion() -> None:
@@ -191,6 +194,48 @@ def test_every_movable_operation_moves(op: str) -> None:
         assert moved.get(key) == inputs.get(key)
 
 
+def test_every_operation_moves_or_has_a_reason_not_to() -> None:
+    """What has no other poses is listed, and why; nothing is both."""
+    assert set(NOT_MOVABLE) | MOVABLE_OPS == set(OUTPUTS)
+    assert not set(NOT_MOVABLE) & MOVABLE_OPS
+    assert len(MOVABLE_OPS) >= 20
+    assert all(NOT_MOVABLE.values())
+
+
+def test_worlds_move_with_their_objects() -> None:
+    """Cells, objects and parts with a pose of their own move; portals are in cell space, lists are ids."""
+    pose = {"cell": 1, "origin": [1.0, 2.0, 3.0], "rotation": [1.0, 0.0, 0.0, 0.0]}
+    portal = {"other": None, "side": 0, "polygon": [[1.0, 2.0, 3.0]], "other_portal": 0}
+    thing = {"id": 9, "pose": pose, "spheres": [[1.0, 2.0, 3.0, 0.5]]}
+    thing["parts"] = [{"geometry": "p", "pose": pose}, {"geometry": None}]
+    world = {
+        "name": "w",
+        "landblocks": [],
+        "cells": [{"id": 257, "pose": pose, "geometry": "g", "portals": [portal], "stab": [258]}],
+        "buildings": [],
+        "objects": [thing],
+        "shadow": {"257": [9]},
+    }
+    inputs = {"world": world, "position": pose, "spheres": [[1.0, 2.0, 3.0, 0.5]], "cell": 257}
+    moved = transform_inputs("find_transit_cells", inputs, TURN)
+    assert moved["position"]["origin"] == [8.0, 21.0, 33.0]
+    assert moved["spheres"] == [[8.0, 21.0, 33.0, 0.5]]
+    (cell,), (thing_moved,) = moved["world"]["cells"], moved["world"]["objects"]
+    assert cell["pose"]["origin"] == thing_moved["pose"]["origin"] == [8.0, 21.0, 33.0]
+    assert thing_moved["parts"][0]["pose"]["origin"] == [8.0, 21.0, 33.0]
+    assert thing_moved["parts"][1] == {"geometry": None}
+    assert thing_moved["spheres"] == [[1.0, 2.0, 3.0, 0.5]]
+    assert (cell["portals"], moved["world"]["shadow"], moved["cell"]) == ([portal], {"257": [9]}, 257)
+
+
+def test_land_does_not_turn() -> None:
+    """A world with land, or with a building that stands on some, is refused: it moves by landblocks only."""
+    for key in ("landblocks", "buildings"):
+        world = {"landblocks": [], "buildings": [], key: [{}]}
+        with pytest.raises(ValueError, match="whole landblocks only"):
+            transform_inputs("world_walk", {"world": world}, TURN)
+
+
 def test_find_collisions_blocks() -> None:
     """Pose, start, end and seed move; seeded cells, water flags and path stay."""
     pose = {"cell": 1, "origin": [1.0, 2.0, 3.0], "rotation": [1.0, 0.0, 0.0, 0.0]}
@@ -272,5 +317,7 @@ def test_queries_say_how_they_were_moved() -> None:
 
 def test_operations_without_a_place_are_refused() -> None:
     """A polygon test is in the geometry's own frame: there is nothing to move."""
-    with pytest.raises(ValueError, match="polygon_make_plane has no pose to move"):
+    with pytest.raises(
+        ValueError, match="polygon_make_plane has no pose to move: in the frame of its geometry"
+    ):
         transform_inputs("polygon_make_plane", {"geometry": "g", "poly": 0}, TURN)

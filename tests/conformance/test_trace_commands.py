@@ -11,15 +11,19 @@ import pytest
 from conformance import cli
 from conformance.candidates.oracle_candidate import OracleCandidate
 from conformance.candidates.registry import candidate_names, make_candidate
+from conformance.candidates.table import TableCandidate
+from conformance.commands import trace
 from conformance.loader import BUILT_IN_CASES, Vary, load_paths
 from conformance.trace_lines import parse_line
+from conformance.trace_text import line_of
 from oracle.write_trace import recording
-from oracle.writes import Write, unchanged
+from oracle.writes import Write
 
 if TYPE_CHECKING:
     from conformance.case import Case
 
 ORIGIN = "origin-step-down-touching"
+CELLAR = "walk-cellar-and-back"
 CASES = load_paths(vary=Vary(poses=0)).cases
 
 
@@ -67,9 +71,11 @@ def test_the_origin_case_in_the_bug_it_is_about(capsys: pytest.CaptureFixture[st
 def test_the_documents_show_what_is_printed(capsys: pytest.CaptureFixture[str]) -> None:
     """The trace, the line of the bug, and the line to log, to the letter."""
     page = (Path(__file__).parents[2] / "docs" / "tracing.md").read_text(encoding="utf-8")
-    shown, bug, logged = re.findall(r"^```text\n(.*?)^```", page, re.DOTALL | re.MULTILINE)
+    shown, bug, transits, failure, logged = re.findall(r"^```text\n(.*?)^```", page, re.DOTALL | re.MULTILINE)
     assert run(capsys, "trace", ORIGIN)[1] == shown.splitlines()
     assert bug.strip() in run(capsys, "trace", ORIGIN, "--candidate", "bug:cell-origin")[1]
+    assert transits.splitlines() == run(capsys, "trace", CELLAR, "--trace", "cell-transit")[1][1:13]
+    assert failure.splitlines()[-2].partition(": ")[2] == bug.strip()
     assert parse_line(logged.strip()) is not None
 
 
@@ -94,7 +100,6 @@ def test_a_case_that_writes_nothing(capsys: pytest.CaptureFixture[str]) -> None:
         ([f"{ORIGIN}x"], f"no case '{ORIGIN}x' among the built-in cases. Did you mean '{ORIGIN}'?"),
         ([ORIGIN, "--trace", "cp-wrte"], "unknown topic 'cp-wrte'. Did you mean 'cp-write'? There are: "),
         ([ORIGIN, "--pose", "99"], f"{ORIGIN} has 8 random poses, there is no pose 99"),
-        ([ORIGIN, "--candidate", "engine"], "engine cannot be traced"),
         ([ORIGIN, "--candidate", "bug:cel-origin"], "Did you mean 'bug:cell-origin'?"),
         ([f"nowhere.yaml::{ORIGIN}"], "nowhere.yaml does not exist"),
     ],
@@ -108,6 +113,25 @@ def test_what_is_not_there_is_a_usage_error(
     assert complaint in error
 
 
+def test_the_engine_prints_what_the_oracle_prints(capsys: pytest.CaptureFixture[str]) -> None:
+    """But for its name."""
+    _, retail, _ = run(capsys, "trace", ORIGIN)
+    code, lines, _ = run(capsys, "trace", ORIGIN, "--candidate", "engine")
+    assert code == 0
+    assert lines == [line.replace("oracle", "engine") for line in retail]
+
+
+def test_a_candidate_that_cannot_be_traced_is_a_usage_error(
+    capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """It is said who can."""
+    monkeypatch.setattr(TableCandidate, "name", "foreign", raising=False)
+    monkeypatch.setattr(trace, "candidate_from", lambda _args: TableCandidate())
+    code, _, error = run(capsys, "trace", ORIGIN)
+    assert code == 2
+    assert "foreign cannot be traced; oracle, engine and the known bugs (bug:NAME) can" in error
+
+
 @pytest.mark.parametrize("case", CASES, ids=lambda case: case.id)
 def test_a_trace_accounts_for_every_change(case: Case) -> None:
     """Each write begins where its field's last ended, can be read back, and changes no answer."""
@@ -117,10 +141,10 @@ def test_a_trace_accounts_for_every_change(case: Case) -> None:
         assert repr(traced) == repr(OracleCandidate().answer(query))
         last: dict[tuple[int, str], Write] = {}
         for entry in trace.entries:
-            assert parse_line(entry.line_with_foot) is not None
+            assert parse_line(line_of(entry, with_foot=True)) is not None
             if isinstance(entry, Write):
-                field = entry.transition, entry.field.label
-                assert field not in last or unchanged(last[field].after, entry.before)
+                field = entry.transition, entry.label
+                assert field not in last or repr(last[field].after) == repr(entry.before)
                 last[field] = entry
 
 

@@ -199,8 +199,8 @@ def test_a_broken_shared_file(tmp_path: Path) -> None:
 
 def test_writing_reads_back(tmp_path: Path) -> None:
     """Every kind of shipped record survives being written and read, bit for bit."""
-    written = [record for record in one_of_each() if "world" not in record.query.inputs]
-    assert len(written) > 100
+    written = one_of_each()
+    assert len(written) > 120
     path = tmp_path / "new" / "out.jsonl"
     assert write_vectors(path, [(r.id, r.query, r.expected) for r in written]) == len(written)
     again = read(path)
@@ -226,6 +226,23 @@ def test_writing_twice_adds_no_geometry(tmp_path: Path) -> None:
     assert isinstance(again, VectorRecord)
     write_vectors(tmp_path / "three.jsonl", [(again.id, again.query, again.expected)])
     assert (tmp_path / "three.jsonl").read_bytes() == (tmp_path / "one.jsonl").read_bytes()
+
+
+def test_writing_twice_adds_no_world(tmp_path: Path) -> None:
+    """A world, too, is named by what it holds; what it is made of is written beside it."""
+    record = records(VECTORS / "world_transition.jsonl")[0]
+    for name in ("one.jsonl", "two.jsonl"):
+        write_vectors(tmp_path / name, [(record.id, record.query, record.expected)])
+    (line,) = (tmp_path / "worlds.jsonl").read_text(encoding="utf-8").splitlines()
+    name = json.loads(line)["name"]
+    assert name.startswith(record.query.inputs["world"]["name"] + "-")
+    assert (tmp_path / "one.jsonl").read_bytes() == (tmp_path / "two.jsonl").read_bytes()
+    (again,) = read(tmp_path / "one.jsonl")
+    assert isinstance(again, VectorRecord)
+    assert again.query.inputs["world"]["name"] == name
+    write_vectors(tmp_path / "three.jsonl", [(again.id, again.query, again.expected)])
+    assert (tmp_path / "three.jsonl").read_bytes() == (tmp_path / "one.jsonl").read_bytes()
+    assert len((tmp_path / "worlds.jsonl").read_text(encoding="utf-8").splitlines()) == 1
 
 
 def test_writing_beside_a_broken_geometry_file(tmp_path: Path) -> None:

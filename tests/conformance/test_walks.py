@@ -70,6 +70,22 @@ def test_a_recorded_move_that_succeeds_changes_everything() -> None:
     assert (second["contact"], second["on_walkable"], second["contact_plane"]) == (0, 0, None)
 
 
+def test_a_world_walk_keeps_its_cell() -> None:
+    """A world gives the cell only when it has changed; water and touched objects are those of each tick."""
+    start = start_of(Query("world_walk", {"start": START}))
+    ticks = [
+        {**LANDED, "cell": 8, "water": 1, "objs": [5]},
+        {**LANDED},
+        {"r": 0, "t": ""},
+        {**LANDED, "cell": 7},
+        {**LANDED},
+    ]
+    found = list(steps("world_walk", start, ticks))
+    assert [step["cell"] for step in found] == [8, 8, 8, 7, 7]
+    assert [step["water"] for step in found] == [1, 0, 0, 0, 0]
+    assert [step["objects"] for step in found] == [[5], [], [], [], []]
+
+
 def test_a_body_says_what_has_changed() -> None:
     """The plane stays while the contact bit is set, and comes back with it; the cell stays."""
     body = {"position": START, "transient_state": 0x81, "contact_plane": FLOOR, "contact_plane_cell": 7}

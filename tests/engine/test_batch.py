@@ -12,7 +12,6 @@ from engine import (
     CollisionCall,
     ContactPlane,
     Move,
-    OutdoorsError,
     PathState,
     Pose,
     QueryError,
@@ -25,7 +24,7 @@ from engine import (
 )
 from engine.batch import check_status
 from engine.constants import ADJUSTED, FLOOR_Z, OK
-from engine.layout import RESULT_SIZE, STATUS_OUTDOORS, STATUS_RECURSION
+from engine.layout import NO_CELL, RESULT_SIZE, STATUS_RECURSION
 from engine.query import move_rows
 
 STEP = PathState(step_down=1, step_down_amt=0.5, walk_interp=1.0, walkable_allowance=FLOOR_Z)
@@ -113,11 +112,14 @@ def test_rows_of_another_type_are_refused() -> None:
         resolve_many(seed_world(), np.zeros((1, RESULT_SIZE)))  # type: ignore[arg-type]
 
 
-def test_leaving_for_the_landscape_is_an_error() -> None:
-    """A mover that begins outdoors cannot be answered yet, and is not answered wrongly."""
-    start, end = Pose(0xA9B40001, (0, 0, R)), Pose(0xA9B40001, (1, 0, R))
-    with pytest.raises(OutdoorsError, match="query 0: the mover came to the landscape"):
-        resolve(world_of(triangle()), Move(mover(), end, CELL, start=start))
+def test_a_mover_may_leave_for_land_that_is_not_in_the_world() -> None:
+    """It is in no cell then; having none, it meets nothing, and its cell id does not change any more."""
+    start, end = Pose(0xA9B40001, (0, 0, R)), Pose(0xA9B40001, (30, 0, R))
+    result = resolve(world_of(triangle()), Move(mover(), end, CELL, start=start))
+    assert result["result"] == 1
+    assert result["curr_cell"] == NO_CELL
+    assert result["curr"][0] == 0xA9B40001
+    assert result["curr"][5] > 24.0
 
 
 def test_a_violated_bound_is_an_error() -> None:
@@ -125,5 +127,3 @@ def test_a_violated_bound_is_an_error() -> None:
     check_status(np.zeros(3))
     with pytest.raises(RecursionBoundError, match="query 1"):
         check_status(np.array([0.0, STATUS_RECURSION]))
-    with pytest.raises(OutdoorsError, match="query 0"):
-        check_status(np.array([STATUS_OUTDOORS]))

@@ -10,7 +10,9 @@ from numba import njit, types
 
 from engine.kernels.collisions import collide_many
 from engine.kernels.compile import OPTIONS
+from engine.kernels.cylsphere_responses import _meet_corner
 from engine.kernels.frame import frame_cache, frame_globaltolocal
+from engine.kernels.obstacle import stand_upon
 from engine.kernels.polygon import polygon_make_plane
 from engine.kernels.position import position_localtoglobalvec
 from engine.kernels.resolving import resolve_many
@@ -29,6 +31,8 @@ STORES = [
     (position_localtoglobalvec, (FLOATS, N, F, F, F), 3),
     (normalize_check_small, (F, F, F), 3),
     (polygon_make_plane, (FLOATS, N), 10),
+    (stand_upon, (FLOATS, F, F, F, F, F, F, F), 2),
+    (_meet_corner, (FLOATS, F, F, F, F, F, F, F, F, F), 17),
 ]
 """Kernel, types of its arguments, and how many of its values the specification stores as float32."""
 

@@ -15,19 +15,19 @@ from engine import (
     ContactPlane,
     Move,
     Mover,
+    Obstacle,
     PathState,
     Pose,
     PoseError,
     QueryError,
     Seed,
-    StaticObject,
     World,
 )
 from engine.layout import NO_OBJECT
 from engine.query import collision_rows, move_rows
 
 FLOOR = triangle()
-WORLD = world_of(FLOOR, objects=[StaticObject(FLOOR, Pose(CELL))])
+WORLD = world_of(FLOOR, objects=[Obstacle.solid(FLOOR, Pose(CELL))])
 MOVE = Move(mover(3), at(1, 0, R), CELL, start=at(0, 0, R))
 
 

@@ -12,10 +12,10 @@ from engine_scenes import CELL, R, at, floor_and_wall, triangle, world_of
 
 from engine import (
     Body,
-    OutdoorsError,
+    Obstacle,
     Pose,
     QueryError,
-    StaticObject,
+    Weenie,
     body_rows,
     resolve_many,
     set_local_velocity,
@@ -25,6 +25,7 @@ from engine import (
     update_many,
 )
 from engine.body_layout import OUTCOMES
+from engine.layout import NO_CELL
 
 DT = 1.0 / 30.0
 
@@ -141,12 +142,31 @@ def test_a_sled_looks_where_it_goes() -> None:
 
 def test_a_touched_object_is_remembered() -> None:
     """Unless the body takes no notice."""
-    box = StaticObject(floor_and_wall(), Pose(CELL), state=0x10000)
+    box = Obstacle.solid(floor_and_wall(), Pose(CELL), state=0x10000)
     world = world_of(triangle(z=-20.0), objects=[box])
     for tracks, known in ((True, True), (False, False)):
         record = step(world, walker(0.4, z=1.5, velocity=(9, 0, 0), tracks_objects=tracks), 0.1)
         assert outcome(record) == "moved"
-        assert (record["collision_table"][0, 0] == f32(0.1)) == known
+        assert record["num_records"] == known
+        assert record["records"][0].tolist() == ([0.0, f32(0.1), 0.0] if known else [0.0, 0.0, 0.0])
+
+
+def test_a_touched_game_object_may_be_the_one_that_is_told() -> None:
+    """It wants to hear of collisions (8), the body does not; without a game object nobody is told."""
+    for weenie, reported in ((Weenie(), 1), (None, 0)):
+        ball = Obstacle(Pose(CELL, (1.5, 0, 1.5)), state=0x8, spheres=[(0, 0, 0, 1)], weenie=weenie)
+        world = world_of(triangle(z=-20.0), objects=[ball])
+        record = step(world, walker(0.0, z=1.5, velocity=(9, 0, 0), state=0x400), 0.1)
+        assert (outcome(record), record["num_records"], record["reported"]) == ("moved", 1, reported)
+
+
+def test_a_body_does_not_collide_with_itself() -> None:
+    """An obstacle of its own id is the body."""
+    ball = Obstacle(Pose(CELL, (1.5, 0, 1.5)), state=0, spheres=[(0, 0, 0, 1)], id=5)
+    world = world_of(triangle(z=-20.0), objects=[ball])
+    for own, touched in ((5, 0), (6, 1), (0, 1)):
+        record = step(world, walker(0.0, z=1.5, velocity=(9, 0, 0), id=own), 0.1)
+        assert record["num_records"] == touched
 
 
 def test_velocities_are_given_in_either_frame() -> None:
@@ -159,14 +179,16 @@ def test_velocities_are_given_in_either_frame() -> None:
     assert (rows["transient_state"] == ACTIVE).all()
 
 
-def test_leaving_for_the_landscape_is_an_error() -> None:
-    """And the other bodies have moved."""
+def test_a_body_may_leave_for_land_that_is_not_in_the_world() -> None:
+    """It is lost, and rests; the other bodies move on."""
     world = world_of(floor_and_wall())
     rows = body_rows(world, [grounded(velocity=(1, 0, 0)), grounded(velocity=(1, 0, 0))])
     rows["cell_id"][0] = 0xA9B40001
-    with pytest.raises(OutdoorsError, match="query 0"):
-        step_many(world, rows, DT, 3)
-    assert rows["physics_time"].tolist() == [f32(DT), 3 * f32(DT)]
+    step_many(world, rows, DT, 1)
+    assert [OUTCOMES[int(number)] for number in rows["outcome"]] == ["lost", "moved"]
+    assert rows["cell"].tolist() == [NO_CELL, 0]
+    step_many(world, rows, DT, 2)
+    assert [OUTCOMES[int(number)] for number in rows["outcome"]] == ["inactive", "moved"]
 
 
 def test_nothing_to_do() -> None:
@@ -206,9 +228,6 @@ def test_ticks_that_cannot_be() -> None:
         update_many(world, rows, np.inf)
     with pytest.raises(QueryError, match=r"not of engine\.body_layout"):
         step_many(world, resolve_many(world, []), DT, 1)
-    other = world_of(triangle(), objects=[StaticObject(triangle(), Pose(CELL))])
-    with pytest.raises(QueryError, match="bodies of another world"):
-        step(other, rows[0], DT)
     with pytest.raises(QueryError, match="not contiguous"):
         step_many(world, body_rows(world, [walker()] * 4)[::2], DT, 1)
     rows["transient_state"] = 0x180

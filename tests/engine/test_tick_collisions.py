@@ -9,9 +9,11 @@ import pytest
 from engine_bodies import ACTIVE, GROUNDED, f32, grounded, walker
 from engine_scenes import CELL, floor_and_wall, triangle, world_of
 
-from engine import Body, Pose, StaticObject, World, body_rows
+from engine import Body, CrowdedError, Obstacle, Pose, World, body_rows
 from engine import layout as at
+from engine.batch import check_status
 from engine.body import rows_as_numbers
+from engine.body_layout import MAX_RECORDS
 from engine.kernels.tick_collisions import respond, track_object_collision
 
 MISSILE = 0x340 | 0x8
@@ -94,19 +96,34 @@ def test_a_landing_counts_as_a_hit() -> None:
 
 def test_objects_are_remembered_for_a_second() -> None:
     """A second touch is not reported; after a second, an ethereal one at once, it is forgotten."""
-    things = [StaticObject(triangle(), Pose(CELL), state=state) for state in (0x10000, 0x10004)]
+    things = [Obstacle.solid(triangle(), Pose(CELL), state=state) for state in (0x10000, 0x10004)]
     world: World = world_of(floor_and_wall(), objects=things)
     rows = body_rows(world, [walker(weenie_bits=0)])
     record, row = rows[0], rows_as_numbers(rows)[0]
     assert track_object_collision(row, 0, 0x10000, False)
     assert not track_object_collision(row, 0, 0x10000, False)
     assert track_object_collision(row, 1, 0x10000 | ETHEREAL, False)
-    assert record["collision_table"].tolist() == [[0.0, 0.0], [0.0, 1.0]]
+    assert record["records"][:2].tolist() == [[0.0, 0.0, 0.0], [1.0, 0.0, 1.0]]
     state = np.zeros(at.STATE_SIZE)
-    for now, known in ((0.0, [True, True]), (1.0, [True, False]), (1.125, [False, False])):
+    for now, known in ((0.0, [0, 1]), (1.0, [0]), (1.125, [])):
         record["physics_time"] = now
         respond(state, row, False)
-        assert (~np.isnan(record["collision_table"][:, 0])).tolist() == known
+        assert record["records"][: int(record["num_records"]), 0].tolist() == known
+
+
+def test_a_body_remembers_a_crowd_of_256() -> None:
+    """The next object is a typed error, not a memory that was overwritten; a known one is not."""
+    world = world_of(floor_and_wall())
+    rows = body_rows(world, [walker()])
+    row = rows_as_numbers(rows)[0]
+    for thing in range(MAX_RECORDS):
+        track_object_collision(row, thing, 0, False)
+    track_object_collision(row, 17, 0, False)
+    check_status(rows["status"])
+    track_object_collision(row, int(MAX_RECORDS), 0, False)
+    assert rows["num_records"][0] == MAX_RECORDS
+    with pytest.raises(CrowdedError, match="body 0 has touched more than 256 objects within a second"):
+        check_status(rows["status"])
 
 
 def test_what_a_touched_object_makes_of_it() -> None:
@@ -117,7 +134,7 @@ def test_what_a_touched_object_makes_of_it() -> None:
         (0x10, False, False, 0),
         (0x18, True, True, 0),
     ):
-        world = world_of(floor_and_wall(), objects=[StaticObject(triangle(), Pose(CELL), state=state)])
+        world = world_of(floor_and_wall(), objects=[Obstacle.solid(triangle(), Pose(CELL), state=state)])
         rows = body_rows(world, [walker(weenie_bits=0)])
         assert track_object_collision(rows_as_numbers(rows)[0], 0, state, has_weenie) == reported
         assert rows[0]["colliding_with_environment"] == latch

@@ -89,14 +89,14 @@ def test_a_lost_body_is_brought_to_its_land_cell(
 
 
 def test_a_standing_body_seeds_both_planes() -> None:
-    """Contact and last-known plane are those of the last tick."""
+    """Contact and last-known plane are those of the last tick; water is the body's bit itself."""
     record, row = row_of(grounded(transient_state=GROUNDED | 0x8))
     made, state = fresh_state()
     assert seed_transition(state, row, False) == 0x203
     for name in ("contact_plane", "last_known_contact_plane"):
         assert made[f"{name}_valid"] == 1
         assert made[name].tolist() == record["contact_plane"].tolist()
-        assert (made[f"{name}_cell_id"], made[f"{name}_is_water"]) == (CELL, 1)
+        assert (made[f"{name}_cell_id"], made[f"{name}_is_water"]) == (CELL, 0x8)
     assert made["local_sphere"][:, 3].tolist() == [R, R]
     assert made["may_step_down"] == 1
 

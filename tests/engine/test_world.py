@@ -8,8 +8,20 @@ import numpy as np
 import pytest
 from engine_scenes import CELL, R, floor_and_wall, triangle
 
-from engine import Cell, Pose, PoseError, StaticObject, World, WorldError
+from engine import (
+    Building,
+    Cell,
+    LandBlock,
+    Obstacle,
+    Part,
+    Portal,
+    Pose,
+    PoseError,
+    World,
+    WorldError,
+)
 from engine import layout as at
+from engine.kernels.cell_ids import find_cell
 
 OTHER = CELL + 1
 
@@ -18,14 +30,14 @@ def test_shared_shapes_are_stored_once() -> None:
     """Two cells and an object with the same geometry have the same tree."""
     shape = triangle()
     cells = [
-        Cell(CELL, Pose(CELL), shape, [StaticObject(shape, Pose(CELL, (1, 2, 3)))], [OTHER]),
+        Cell(CELL, Pose(CELL), shape, [Obstacle.solid(shape, Pose(CELL, (1, 2, 3)))], [OTHER]),
         Cell(OTHER, Pose(CELL), shape),
     ]
     world = World(cells)
     assert world.shapes == (shape,)
     assert world.tree_of(0) == world.tree_of(1) == at.FIRST_NODE
-    assert world.objects_of(0) == (0, 1)
-    assert world.objects_of(1) == (1, 0)
+    assert world.objects_of(0) == (0,)
+    assert world.objects_of(1) == ()
     assert repr(world) == "<World: 2 cells, 1 objects, 1 shapes>"
 
 
@@ -53,10 +65,10 @@ def test_a_cell_without_geometry_has_no_tree() -> None:
 
 
 def test_a_row_has_room_for_what_the_world_needs() -> None:
-    """The deepest tree's levels, every cell, every object, and the trace."""
+    """The deepest tree's levels, every cell, the land about ten balls, every object, and the trace."""
     shape = floor_and_wall()
-    world = World([Cell(CELL, Pose(CELL), shape, [StaticObject(shape, Pose(CELL))])])
-    assert len(world.new_row()) == at.STATE_SIZE + shape.depth + 1 + 1
+    world = World([Cell(CELL, Pose(CELL), shape, [Obstacle.solid(shape, Pose(CELL))])])
+    assert len(world.new_row()) == at.STATE_SIZE + shape.depth + 1 + 9 * 10 + 1
     row = world.new_row(trace_capacity=7)
     assert len(row) == len(world.new_row()) + 7
     assert row[at.TRACE_CAPACITY] == 7
@@ -81,13 +93,84 @@ def test_a_world_has_a_cell() -> None:
         World([])
 
 
+def test_cells_are_found_by_their_ids() -> None:
+    """Environment cells come first, then the land cells of each block; low words 0 and 0x41 are no cells."""
+    blocks = [LandBlock(block, [0.0] * 81) for block in (0xA9B4, 0xA9B5)]
+    world = World([Cell(CELL, Pose(CELL), None), Cell(0x01000100, Pose(CELL), None)], blocks)
+    assert len(world.cell_ids) == 2 + 2 * 64
+    for index, cell_id in enumerate(world.cell_ids):
+        assert world.cell_index(cell_id) == find_cell(world.ints, float(cell_id)) == index
+    for cell_id in (0xA9B40000, 0xA9B40041, 0xA9B400FF, OTHER, 0xA9B4FFFF, 0xA9B60001, 0):
+        assert world.cell_index(cell_id) == find_cell(world.ints, float(cell_id)) == at.NO_CELL
+    assert world.tree_of(2) == at.NO_TREE
+
+
+def test_an_obstacle_in_several_cells_is_one() -> None:
+    """Its index is the same in each list; own objects come before those of `shadows`."""
+    shape = triangle()
+    wall, post, rider = (Obstacle.solid(shape, Pose(CELL)) for _ in range(3))
+    rider = Obstacle(Pose(CELL), has_parent=True)
+    land = 0xA9B40001
+    world = World(
+        [Cell(CELL, Pose(CELL), shape, [wall])],
+        [LandBlock(0xA9B4, [0.0] * 81)],
+        shadows={CELL: [post, rider], land: [post]},
+    )
+    assert world.objects == (wall, post, rider)
+    assert world.objects_of(0) == (0, 1)
+    assert world.objects_of(world.cell_index(land)) == (1,)
+    with pytest.raises(WorldError, match="shadows, 0xa9b40112: is not a cell of the world"):
+        World([Cell(CELL, Pose(CELL), shape)], shadows={OTHER: [post]})
+
+
+@pytest.mark.parametrize(
+    ("obstacle", "family", "count"),
+    [
+        (Obstacle(Pose(CELL), state=0x10001, parts=[Part(None)], spheres=[(0, 0, 0, 1)]), at.FAMILY_PARTS, 0),
+        (Obstacle(Pose(CELL), cylspheres=[(0, 0, 0, 1, 2)], spheres=[(0, 0, 0, 1)]), at.FAMILY_CYLSPHERES, 1),
+        (Obstacle(Pose(CELL), spheres=[(0, 0, 0, 1)] * 3), at.FAMILY_SPHERES, 3),
+        (Obstacle(Pose(CELL)), at.FAMILY_NONE, 0),
+        (Obstacle(Pose(CELL), spheres=[(0, 0, 0, 1)], has_part_array=False), at.FAMILY_NONE, 0),
+    ],
+)
+def test_one_family_of_shapes_is_chosen(obstacle: Obstacle, family: int, count: int) -> None:
+    """By the state bit first, whether there are such parts or not; then cylspheres, then spheres."""
+    world = World([Cell(CELL, Pose(CELL), None, [obstacle])])
+    record = world.ints[world.ints[at.WORLD_OBJECT_INTS] :][: at.OBJECT_INTS]
+    assert record[at.OBJECT_FAMILY] == family
+    assert record[at.OBJECT_COUNT] == count
+
+
+def test_a_building_belongs_to_the_land_cell_under_it() -> None:
+    """200 metres east in its block's frame is the next block; the first building of a cell stays."""
+    blocks = [LandBlock(block, [0.0] * 81) for block in (0xA9B4, 0xAAB4)]
+    poses = [Pose(0xA9B40001, (200.0, 3.0, 0.0)), Pose(0xAAB40001, (9, 4, 0)), Pose(0xA9B40001, (-1, 0, 0))]
+    world = World((), blocks, [Building(pose, triangle()) for pose in poses])
+    houses = world.ints[world.ints[at.WORLD_CELL_INTS] :][: 128 * at.CELL_INTS].reshape(128, -1)
+    owned = houses[:, at.LAND_BUILDING]
+    assert owned[64] == 0
+    assert (np.delete(owned, 64) == at.NO_BUILDING).all()
+
+
 WRONG: list[tuple[list[Cell], str]] = [
     ([Cell(0xA9B40001, Pose(CELL), SHAPE)], "cell 0: 0xa9b40001 is not the id of an indoor cell"),
     ([Cell(-1, Pose(CELL), SHAPE)], "cell 0: -0x1 is not the id of an indoor cell"),
     ([Cell(CELL, Pose(CELL), SHAPE)] * 2, "cell 1: id 0xa9b40111 is used twice"),
     (
         [Cell(CELL, Pose(CELL), SHAPE, portals=[OTHER])],
-        "cell 0xa9b40111: a portal leads to 0xa9b40112, which is not in the world",
+        "cell 0xa9b40111, portal 0: leads to 0xa9b40112, which is not in the world: its polygon is needed",
+    ),
+    (
+        [Cell(CELL, Pose(CELL), SHAPE, portals=[Portal(None)])],
+        "cell 0xa9b40111, portal 0: leads outside: its polygon is needed",
+    ),
+    (
+        [Cell(CELL, Pose(CELL), SHAPE, portals=[Portal(None, [(0, 0, 0), (1, 0, 0), (2, 0, 0)])])],
+        "cell 0xa9b40111, portal 0, polygon: has no area, and so no plane",
+    ),
+    (
+        [Cell(CELL, Pose(CELL), SHAPE, portals=[Portal(CELL, side=2)])],
+        "cell 0xa9b40111, portal 0, side: 2 is neither 0 nor 1",
     ),
 ]
 WRONG_POSES: list[tuple[Pose, str]] = [
@@ -102,6 +185,11 @@ WRONG_OBJECTS: list[tuple[dict[str, Any], str]] = [
     ({"scale": np.nan}, "object 0, scale: nan at (0,) is not a finite float32"),
     ({"state": -1}, "object 0, state: -1 is not a set of PhysicsState bits"),
     ({"pose": Pose(CELL, rotation=(2, 0, 0, 0))}, "object 0, pose, rotation: squared length 4.0"),
+    ({"id": -1}, "object 0, id: -1 is not a 32-bit number"),
+    ({"parts": [Part(SHAPE, scale=-1.0)]}, "object 0, part 0, scale: -1.0 is not greater than 0"),
+    ({"state": 1, "spheres": [(0, 0, 1)]}, "object 0, spheres: shape (1, 3) where ('n', 4) is needed"),
+    ({"state": 1, "spheres": [(0, 0, 0, -1)]}, "object 0, spheres, 0: a radius of -1.0"),
+    ({"state": 1, "cylspheres": [(0, 0, 0, 1, -2)]}, "object 0, cylspheres, 0: a height of -2.0"),
 ]
 
 
@@ -124,7 +212,7 @@ def test_wrong_poses_are_refused(pose: Pose, message: str) -> None:
 @pytest.mark.parametrize(("changed", "message"), WRONG_OBJECTS)
 def test_wrong_objects_are_refused(changed: dict[str, Any], message: str) -> None:
     """The error names the cell, the object and the number."""
-    thing = StaticObject(**{"shape": SHAPE, "pose": Pose(CELL), **changed})
+    thing = Obstacle(**{"pose": Pose(CELL), "state": 0x10001, "parts": [Part(SHAPE)], **changed})
     with pytest.raises((WorldError, PoseError)) as caught:
         World([Cell(CELL, Pose(CELL), SHAPE, [thing])])
     assert str(caught.value).startswith(f"cell 0xa9b40111, {message}")

@@ -64,7 +64,6 @@ def walker(
     """Return an object on a floor at z = 0 (or `height` metres above it) without friction."""
     given = world_of(FLOOR) if world is None else world
     setup = Setup(
-        num_sphere=spheres,
         step_up_height=0.5,
         step_down_height=1.5,
         sphere=(Sphere(vec(0.0, 0.0, RADIUS), RADIUS),) * spheres,

@@ -25,6 +25,8 @@ if TYPE_CHECKING:
 
     from oracle.cell_array import CellArray
     from oracle.enums import TransitionState
+    from oracle.physics_part import PhysicsPart
+    from oracle.sphere_path import SpherePath
 
 Corner = tuple[float, float, float]
 
@@ -100,9 +102,19 @@ class ScriptedCell(ObjCell):
         return 1
 
     def find_transit_cells(
-        self, p: Position, num_sphere: int, spheres: Sequence[Sphere], array: CellArray
+        self,
+        p: Position,
+        num_sphere: int,
+        spheres: Sequence[Sphere],
+        array: CellArray,
+        path: SpherePath | None,
     ) -> None:
         """Add the neighbours, whatever the spheres."""
+        for cell in self.neighbours:
+            array.add_cell(cell.id, cell)
+
+    def find_transit_cells_of_parts(self, parts: Sequence[PhysicsPart | None], array: CellArray) -> None:
+        """Add the neighbours, whatever the parts."""
         for cell in self.neighbours:
             array.add_cell(cell.id, cell)
 

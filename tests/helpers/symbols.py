@@ -25,7 +25,7 @@ def value_of(x: Any) -> float:
 
 
 class Symbol:
-    """A value and the expression that it comes from; comparisons go by value and are noted."""
+    """A value and the expression that it comes from; comparisons and floors go by value and are noted."""
 
     compared: ClassVar[list[tuple[str, str, str]]] = []
 
@@ -100,6 +100,16 @@ class Symbol:
     def __abs__(self) -> Symbol:
         return Symbol(abs(self.value), f"|{self.text}|")
 
+    def __floor__(self) -> int:
+        self.compared.append((self.text, "floor", repr(math.floor(self.value))))
+        return math.floor(self.value)
+
+    def __eq__(self, other: object) -> bool:
+        self.compared.append((self.text, "==", text_of(other)))
+        return self.value == value_of(other)
+
+    __hash__ = None  # type: ignore[assignment]
+
     def __lt__(self, other: Any) -> bool:
         self.compared.append((self.text, "<", text_of(other)))
         return self.value < value_of(other)
@@ -141,6 +151,13 @@ def frame(name: str) -> Any:
 def assert_vector(got: Any, *wanted: Any) -> None:
     """Compare three components by how they were computed."""
     assert [text_of(c) for c in (got.x, got.y, got.z)] == [text_of(c) for c in wanted]
+
+
+def assert_floored(*arguments: Any) -> None:
+    """Demand that whole numbers below these expressions were asked for, in this order."""
+    assert [left for left, operator, _ in Symbol.compared if operator == "floor"] == [
+        text_of(x) for x in arguments
+    ]
 
 
 def assert_compared(left: Any, operator: str, right: Any) -> None:

@@ -1,57 +1,31 @@
-"""CEnvCell: environment before objects, containment, and transit through portals."""
+"""CEnvCell: environment before objects, containment, and the cells near it."""
 
 from __future__ import annotations
 
-from contextlib import nullcontext
+from typing import TYPE_CHECKING
 
 import pytest
+from oracle_land import room
 from oracle_worlds import CELL, FLOOR, OTHER_CELL, at, trace_of, transition, tree, vec, world_of
 
-from oracle.arithmetic import f32
-from oracle.bsp_node import BSPNode
-from oracle.bsp_tree import BSPTree
-from oracle.cell_array import CellArray
-from oracle.constants import CELL_SLACK, EPS
+from oracle.constants import EPS
 from oracle.enums import CONTACT_OI, IS_PLAYER, InsertType, TransitionState
-from oracle.env_cell import CellPortal, CellStruct, EnvCell
-from oracle.errors import NotPortedError
-from oracle.frame import Frame
+from oracle.env_cell import CellPortal
 from oracle.physics_object import PhysicsObj
 from oracle.physics_part import GfxObj, PartArray, PhysicsPart
 from oracle.physics_state import HAS_PHYSICS_BSP_PS, STATIC_PS
-from oracle.plane import Plane
-from oracle.sphere import Sphere
 from oracle.weenie import Weenie
 from oracle.world import World
 
+if TYPE_CHECKING:
+    from oracle.env_cell import EnvCell
+
 OK, COLLIDED = TransitionState.OK, TransitionState.COLLIDED
-RADIUS = 0.5
 
 
-def half_space() -> CellStruct:
-    """Return a structure that contains x >= 0."""
-    node = BSPNode(Plane(vec(1.0, 0.0, 0.0), 0.0), Sphere(vec(0.0, 0.0, 0.0), 0.0), None, None)
-    return CellStruct(None, BSPTree(node))
-
-
-def cell(
-    world: World,
-    *portals: CellPortal,
-    cell_id: int = CELL,
-    x: float = 0.0,
-    structure: CellStruct | None = None,
-) -> EnvCell:
-    """Load a cell."""
-    made = EnvCell(cell_id, at(x, 0.0, 0.0, cell_id), structure or half_space(), world, portals=portals)
-    world.add_cell(made)
-    return made
-
-
-def reached(one: EnvCell, x: float) -> list[tuple[int, bool]]:
-    """Return the ids that a sphere of half a metre at `x` adds, and whether they are loaded."""
-    array = CellArray()
-    one.find_transit_cells(at(0.0, 0.0, 0.0), 1, [Sphere(vec(x, 0.0, 0.0), RADIUS)], array)
-    return [(entry.cell_id, entry.cell is not None) for entry in array.cells]
+def cell(world: World, *portals: CellPortal, cell_id: int = CELL, x: float = 0.0) -> EnvCell:
+    """Load a cell, the half space from `x` to the east."""
+    return room(world, cell_id, *portals, origin=(x, 0.0, 0.0))
 
 
 def test_the_environment_comes_before_the_objects() -> None:
@@ -113,63 +87,58 @@ def test_containment_is_asked_in_cell_space() -> None:
     assert one.point_in_cell(vec(10.0, 0.0, 0.0)) == 0
 
 
-@pytest.mark.parametrize(("x", "inside"), [(-0.5, True), (-0.5 - CELL_SLACK * 1.01, False)])
-def test_a_loaded_neighbour_is_reached_through_its_own_cell_tree(x: float, inside: bool) -> None:
-    """09 4.2 B: the sphere, enlarged by the slack, must reach into the other cell."""
-    world = World()
-    one = cell(world, CellPortal(OTHER_CELL, 0, None))
-    cell(world, cell_id=OTHER_CELL)
-    assert reached(one, f32(x)) == ([(OTHER_CELL, True)] if inside else [])
-
-
-@pytest.mark.parametrize(
-    ("side", "x", "inside"),
-    [(1, -0.6, False), (1, -0.4, True), (1, 9.0, True), (0, 0.6, False), (0, 0.4, True), (0, -9.0, True)],
-)
-def test_an_unloaded_neighbour_is_reached_through_the_portal_plane(side: int, x: float, inside: bool) -> None:
-    """09 4.2 C: by the side of the portal, enlarged by EPS; it is listed without a cell."""
-    one = cell(World(), CellPortal(OTHER_CELL, side, Plane(vec(1.0, 0.0, 0.0), 0.0)))
-    assert reached(one, x) == ([(OTHER_CELL, False)] if inside else [])
-
-
-def test_an_exterior_portal_that_is_touched_is_not_ported() -> None:
-    """09 4.2 A: away from the plane nothing happens, on it land cells would be needed."""
-    one = cell(World(), CellPortal(None, 0, Plane(vec(1.0, 0.0, 0.0), 0.0)))
-    assert reached(one, 2.0) == []
-    with pytest.raises(NotPortedError, match=r"09 6\.4"):
-        reached(one, 0.25)
-
-
-@pytest.mark.parametrize("side", [1.0, -1.0])
-@pytest.mark.parametrize(("gap", "touched"), [(0.499, True), (0.501, False)])
-def test_an_exterior_portal_is_asked_in_the_space_of_its_cell(side: float, gap: float, touched: bool) -> None:
-    """09 4.2 A: the point is taken through the cell's rotation; both sides of the plane are touched."""
-    one = cell(World(), CellPortal(None, 0, Plane(vec(0.48, 0.6, 0.64), 0.0)))
-    one.pos.frame.assign(Frame.unpack(vec(7.0, 3.0, 9.0), f32(0.8), f32(0.36), f32(0.48), 0.0))
-    center = one.pos.frame.localtoglobal(vec(side * gap * 0.48, side * gap * 0.6, side * gap * 0.64))
-    expectation = pytest.raises(NotPortedError) if touched else nullcontext()
-    with expectation:
-        one.find_transit_cells(at(0.0, 0.0, 0.0), 1, [Sphere(center, RADIUS)], CellArray())
-
-
-def test_an_exterior_portal_exactly_a_radius_and_eps_away_is_not_touched() -> None:
-    """09 4.2 A: both comparisons are strict, with the radius rounded to float32."""
-    one = cell(World(), CellPortal(None, 0, Plane(vec(1.0, 0.0, 0.0), 0.0)))
-    assert reached(one, f32(RADIUS + EPS)) == []
-    assert reached(one, -f32(RADIUS + EPS)) == []
-
-
-def test_a_portal_whose_plane_is_needed_must_have_one() -> None:
-    """A portal that only names a cell is enough as long as that cell is loaded."""
-    one = cell(World(), CellPortal(OTHER_CELL, 0, None))
-    with pytest.raises(ValueError, match="needs its plane"):
-        reached(one, 0.0)
-
-
-def test_only_interior_cells_are_visible() -> None:
-    """The world finds loaded interior cells; land cells and unknown ids are None."""
+def test_only_loaded_cells_are_visible() -> None:
+    """09 2: interior cells that are loaded; nothing is loaded for being asked for."""
     world = World()
     one = cell(world)
     assert world.get_visible(CELL) is one
     assert world.get_visible(OTHER_CELL) is None
     assert world.get_visible(0xA9B40001) is None
+
+
+def test_only_interior_cells_are_loaded_one_by_one() -> None:
+    """Land cells come with their landblock."""
+    with pytest.raises(ValueError, match=r"EnvCell\(0xa9b40040\) is not an interior cell"):
+        room(World(), 0xA9B40040)
+
+
+class TestVisibleChild:
+    """09 7: find_visible_child_cell, among half spaces that begin at x = 0, 10 and 20."""
+
+    def found(self, x: float, *, search_stabs: bool, loaded: bool = True) -> int | None:
+        """Return the id of the cell that is found at `x` from a cell in which that is not."""
+        world = World()
+        behind = CELL + 9
+        first = cell(world, CellPortal(None, 0, None), CellPortal(OTHER_CELL, 0, None), x=20.0)
+        first.stab_list = (behind, CELL + 2)
+        if loaded:
+            cell(world, cell_id=OTHER_CELL, x=10.0)
+            cell(world, cell_id=CELL + 2, x=0.0)
+        found = first.find_visible_child_cell(vec(x, 0.0, 0.0), search_stabs=search_stabs)
+        return None if found is None else found.id
+
+    @pytest.mark.parametrize("search_stabs", [True, False])
+    def test_the_cell_itself_comes_first(self, search_stabs: bool) -> None:
+        """09 7.1: though others contain the point too."""
+        assert self.found(25.0, search_stabs=search_stabs) == CELL
+
+    def test_visible_cells(self) -> None:
+        """09 7.2: those of the stab list that are loaded, and not the neighbours."""
+        assert self.found(15.0, search_stabs=True) == CELL + 2
+
+    def test_neighbours(self) -> None:
+        """09 7.3: the cells behind the portals, and not the visible ones; the exterior is none."""
+        assert self.found(15.0, search_stabs=False) == OTHER_CELL
+        assert self.found(5.0, search_stabs=False) is None
+
+    @pytest.mark.parametrize("search_stabs", [True, False])
+    def test_nothing(self, search_stabs: bool) -> None:
+        """09 7.4: nothing contains the point, or nothing else is loaded."""
+        assert self.found(-5.0, search_stabs=search_stabs) is None
+        assert self.found(15.0, search_stabs=search_stabs, loaded=False) is None
+
+    def test_without_portals(self) -> None:
+        """09 4.1.1: a cell without a portal array contains nothing and leads nowhere."""
+        one = cell(World())
+        one.portals = None
+        assert one.find_visible_child_cell(vec(5.0, 0.0, 0.0), search_stabs=False) is None

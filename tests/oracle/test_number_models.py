@@ -10,13 +10,19 @@ import math
 from typing import TYPE_CHECKING, Any
 
 import pytest
+from oracle_land import BLOCK, VERTICES, WATER, ids, land_block, land_id
 
+from oracle.bbox import BBox
 from oracle.bsp_leaf import BSPLeaf
 from oracle.bsp_node import BSPNode
 from oracle.bsp_tree import BSPTree
+from oracle.cell_array import CellArray
+from oracle.cell_list import find_cell_list
 from oracle.collision_info import CollisionInfo
+from oracle.cyl_sphere import CylSphere
 from oracle.enums import CONTACT_OI, PATH_CLIPPED_OI, PERFECT_CLIP_OI, InsertType, TransitionState
 from oracle.frame import Frame
+from oracle.landscape import Landscape
 from oracle.physics_object import PhysicsObj
 from oracle.physics_state import GRAVITY_PS, SLEDDING_PS
 from oracle.plane import Plane
@@ -35,6 +41,7 @@ if TYPE_CHECKING:
 
 CLOSE = 1e-4
 """Metres: what float32 stores cost at coordinates up to 256."""
+UPRIGHT = (1.0, 0.0, 0.0, 0.0)
 
 
 def raw(x: Any) -> float:
@@ -125,6 +132,9 @@ class Double:
 
     def __abs__(self) -> Double:
         return Double(abs(self.value))
+
+    def __floor__(self) -> int:
+        return math.floor(self.value)
 
     def __lt__(self, other: Any) -> bool:
         return self.value < raw(other)
@@ -220,6 +230,59 @@ def test_collisions_run_on_other_numbers(
     assert [raw(x) for x in double[1:]] == pytest.approx(retail[1:], abs=CLOSE)
 
 
+def meet(number: Callable[[float], Any], shape: str, start: float, end: float, **fields: Any) -> list[Any]:
+    """Return everything that the test of a shape of 1.5 metres leaves behind, from heights above it."""
+    transition = Transition(World())
+    path, collisions = transition.sphere_path, transition.collision_info
+    transition.object_info.state = fields.pop("state", 0)
+    transition.object_info.step_up_height = number(fields.pop("step_up_height", 0.0))
+    along = number(fields.pop("along", 0.25))
+    path.init_sphere(1, [Sphere(vector(number, 0.0, 0.0, 0.0), number(0.5))], number(1.0))
+    begin, finish = (position(number, 100.0, 50.0, 94.0 + z) for z in (start, end))
+    begin.frame.origin.x = begin.frame.origin.x + along
+    path.init_path(None, begin, finish)
+    path.set_check_pos(finish, None)
+    path.walk_interp, path.step_down_amt = number(1.0), number(1.0)
+    for name, value in fields.items():
+        setattr(path, name, value)
+    where = position(number, 100.0, 50.0, 94.0)
+    if shape == "sphere":
+        ball = Sphere(vector(number, 0.0, 0.0, 0.0), number(0.75))
+        result = ball.intersects_sphere_at(where, number(2.0), transition, is_creature=False)
+    else:
+        cylinder = CylSphere(vector(number, 0.0, 0.0, -0.25), number(1.0), number(0.75))
+        result = cylinder.intersects_sphere_at(where, number(2.0), transition)
+    o = path.check_pos.frame.origin
+    vectors = (o, collisions.contact_plane.N, collisions.collision_normal, path.step_up_normal)
+    numbers = [c for v in vectors for c in (v.x, v.y, v.z)]
+    return [result, *numbers, collisions.contact_plane.d, path.walk_interp, path.walkable_allowance]
+
+
+@pytest.mark.parametrize("shape", ["sphere", "cylinder"])
+@pytest.mark.parametrize(
+    ("start", "end", "fields", "result"),
+    [
+        (2.0, 1.5, {"insert_type": InsertType.PLACEMENT}, TransitionState.COLLIDED),
+        (2.0, 1.5, {"step_down": 1}, TransitionState.ADJUSTED),
+        (2.0, 1.75, {"collide": 1}, TransitionState.ADJUSTED),
+        (2.5, 1.5, {}, TransitionState.ADJUSTED),
+        (2.5, 1.5, {"state": PATH_CLIPPED_OI}, TransitionState.COLLIDED),
+        (2.5, 1.5, {"state": PATH_CLIPPED_OI | PERFECT_CLIP_OI}, TransitionState.ADJUSTED),
+        (0.5, 0.5, {"state": PATH_CLIPPED_OI | PERFECT_CLIP_OI, "along": 4.0}, TransitionState.ADJUSTED),
+        (2.5, 0.5, {"state": PATH_CLIPPED_OI | PERFECT_CLIP_OI, "along": 8.0}, TransitionState.ADJUSTED),
+        (0.5, 0.5, {"state": CONTACT_OI, "along": 4.0}, TransitionState.SLID),
+    ],
+)
+def test_shapes_run_on_other_numbers(
+    shape: str, start: float, end: float, fields: dict[str, Any], result: TransitionState
+) -> None:
+    """The same decisions for spheres and cylinders, and numbers that differ by float32 roundings only."""
+    retail = meet(float, shape, start, end, **fields)
+    double = meet(Double, shape, start, end, **fields)
+    assert retail[0] is double[0] is result
+    assert [raw(x) for x in double[1:]] == pytest.approx(retail[1:], abs=CLOSE)
+
+
 def test_rotations_run_on_other_numbers() -> None:
     """Headings, angles and interpolation use the type's own functions."""
 
@@ -287,3 +350,36 @@ def test_velocities_run_on_other_numbers() -> None:
         return [f.origin.x, f.origin.y, f.origin.z, f.qw, f.qx, f.qy, f.qz, v.x, v.y, v.z]
 
     assert [raw(x) for x in thrown(Double)] == pytest.approx(thrown(float), abs=CLOSE)
+
+
+def test_land_runs_on_other_numbers() -> None:
+    """Terrain, its water, the lists of cells, and the boxes of registration."""
+
+    def walked(number: Callable[[float], Any]) -> list[Any]:
+        world = World()
+        heights = [number(0.37 * (k % 7) + 10.0) for k in range(VERTICES)]
+        world.landscape = Landscape({BLOCK: land_block(world, heights=heights, terrain=[WATER] + [0] * 80)})
+        array = CellArray()
+        spheres = [Sphere(vector(number, 23.9, 12.3, 11.0), number(0.48))]
+        pose: Any = Position(
+            land_id(0, 0), Frame.unpack(vector(number, 12.1, 12.2, 11.0), *map(number, UPRIGHT))
+        )
+        found: Ref[Any] = Ref(None)
+        find_cell_list(world, pose, 1, spheres, array, found, None)
+        cell = found.value
+        transition = Transition(world)
+        transition.object_info.object = PhysicsObj(0, 0, pose, scale=number(1.0), part_array=None)
+        transition.init_sphere(1, [Sphere(vector(number, 0.0, 0.0, -0.9), number(0.48))], number(1.0))
+        transition.init_path(cell, pose, pose)
+        transition.sphere_path.set_check_pos(pose, cell)
+        transition.sphere_path.step_down_amt = transition.sphere_path.walk_interp = number(1.0)
+        result = cell.find_env_collisions(transition)
+        low = (
+            BBox(vector(number, -1.0, -2.0, 0.0), vector(number, 1.0, 2.0, 3.0))
+            .local_to_global(pose, pose)
+            .min
+        )
+        o, n = transition.sphere_path.check_pos.frame.origin, transition.collision_info.contact_plane.N
+        return [result, *ids(array), cell.id, cell.get_water_depth(o), o.z, n.x, n.y, n.z, low.x, low.y]
+
+    assert [raw(x) for x in walked(Double)] == pytest.approx(walked(float), abs=CLOSE)

@@ -5,14 +5,10 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 import pytest
-from oracle_worlds import CELL, OTHER_CELL, ScriptedCell, ScriptedWorld, at, mover, transition
+from oracle_worlds import OTHER_CELL, ScriptedCell, ScriptedWorld, at, mover, transition
 
-from oracle.cell_array import CellArray
 from oracle.enums import IS_PLAYER, InsertType, TransitionState
-from oracle.errors import NotPortedError
-from oracle.obj_cell import ObjCell, find_cell_list
 from oracle.physics_object import PhysicsObj
-from oracle.ref import Ref
 from oracle.weenie import Weenie
 
 if TYPE_CHECKING:
@@ -60,6 +56,32 @@ def test_the_mover_and_attached_objects_are_skipped() -> None:
     assert attached.asked == 0
 
 
+@pytest.mark.parametrize(("object_id", "mover_id", "asked"), [(7, 7, 0), (7, 8, 1), (0, 0, 1)])
+def test_the_mover_is_known_by_its_id_too(object_id: int, mover_id: int, asked: int) -> None:
+    """09 3.2.2: retail compares pointers; an object that stands for the mover has its id, and 0 is none."""
+    made, cell = in_cell()
+    other = Scripted(OK)
+    other.id = object_id
+    made.object_info.mover().id = mover_id
+    cell.shadow_object_list = [other]
+    assert cell.find_obj_collisions(made) == OK
+    assert other.asked == asked
+
+
+def test_objects_that_come_while_testing_are_tested() -> None:
+    """09 3.2.2: the count is read anew each time."""
+    made, cell = in_cell()
+    late = Scripted(SLID)
+
+    class Bringing(Scripted):
+        def find_obj_collisions(self, transition: Transition) -> TransitionState:
+            cell.add_shadow_object(late)
+            return OK
+
+    cell.shadow_object_list = [Bringing(OK)]
+    assert cell.find_obj_collisions(made) == SLID
+
+
 def test_an_initial_placement_ignores_objects() -> None:
     """09 3.2.1."""
     made, cell = in_cell()
@@ -75,19 +97,22 @@ def test_an_initial_placement_ignores_objects() -> None:
         (Weenie(), IS_PLAYER, None, OK),
         (Weenie(), IS_PLAYER, True, OK),
         (Weenie(), IS_PLAYER, False, COLLIDED),
+        (Weenie(), IS_PLAYER, "nobody", COLLIDED),
         (Weenie(), 0, False, OK),
         (Weenie(can_bypass_move_restrictions=True), IS_PLAYER, False, OK),
     ],
 )
 def test_restricted_cells_refuse_players(
-    weenie: Weenie | None, state: int, admits: bool | None, result: TransitionState
+    weenie: Weenie | None, state: int, admits: bool | str | None, result: TransitionState
 ) -> None:
     """09 3.1: only players with a game object that may not enter are stopped."""
     made, cell = in_cell()
     made.object_info.mover().weenie_obj = weenie
     made.object_info.state = state
-    cell.restriction = None if admits is None else lambda _: bool(admits)
+    if admits is not None:
+        cell.restriction = lambda _: None if admits == "nobody" else bool(admits)
     assert cell.check_entry_restrictions(made) == result
+    assert made.collision_info.collision_normal_valid == 0
 
 
 def test_nobody_may_not_enter() -> None:
@@ -95,56 +120,6 @@ def test_nobody_may_not_enter() -> None:
     made, cell = in_cell()
     made.object_info.object = None
     assert cell.check_entry_restrictions(made) == COLLIDED
-
-
-def listed(*cells: ScriptedCell, no_load: int = 0, spheres: int = 1) -> tuple[list[int], object]:
-    """Return the ids that a search from `CELL` lists, and what it says of the containing cell."""
-    world = ScriptedWorld(*cells)
-    made = transition(world, at(0.0, 0.0, 1.0), at(0.0, 0.0, 1.0))
-    array, found = CellArray(), Ref[ObjCell | None](ScriptedCell([], cell_id=1))
-    array.do_not_load_cells = no_load
-    path = made.sphere_path
-    find_cell_list(world, path.check_pos, spheres, path.global_sphere, array, found, path)
-    return [entry.cell_id for entry in array.cells], None if found.value is None else found.value.id
-
-
-def test_the_search_goes_on_through_neighbours() -> None:
-    """09 5.1.5: cells that the loop appends are searched too; the first that contains wins."""
-    first, second, third = (ScriptedCell([], cell_id=CELL + i) for i in range(3))
-    first.neighbours, second.neighbours = [second], [first, third]
-    assert listed(first, second, third) == ([CELL, CELL + 1, CELL + 2], CELL)
-
-
-def test_a_starting_cell_that_is_not_loaded_is_listed_alone() -> None:
-    """09 5.1.4: the containing cell is left as it was; so it is without spheres."""
-    assert listed() == ([CELL], 1)
-    assert listed(ScriptedCell([]), spheres=0) == ([CELL], 1)
-
-
-def test_a_search_begins_anew() -> None:
-    """09 5.1.1: the list is emptied, and land cells have not been added."""
-    made, cell = in_cell()
-    array = CellArray()
-    array.added_outside = 1
-    array.add_cell(1, None)
-    find_cell_list(made.world, made.sphere_path.check_pos, 0, [], array, None, None)
-    assert ([entry.cell_id for entry in array.cells], array.added_outside) == ([cell.id], 0)
-
-
-def test_pruning_keeps_what_is_visible_from_the_start() -> None:
-    """09 5.1.7: with do_not_load_cells only the start and its stab list stay, order changed by removal."""
-    first = ScriptedCell([])
-    others = [ScriptedCell([], cell_id=CELL + i) for i in range(1, 4)]
-    first.neighbours = list(others)
-    first.stab_list = (CELL + 3,)
-    assert listed(first, *others, no_load=1) == ([CELL, CELL + 3], CELL)
-
-
-def test_a_search_from_outdoors_is_not_ported() -> None:
-    """09 5.1.3: land cells are a typed error, not an empty list."""
-    made, _ = in_cell()
-    with pytest.raises(NotPortedError, match=r"09 6\.4"):
-        find_cell_list(made.world, at(0.0, 0.0, 0.0, 0xA9B40001), 0, [], CellArray(), None, None)
 
 
 def test_a_cell_is_named_by_its_id() -> None:

@@ -247,9 +247,9 @@ class TestTick:
         assert body.jumped_this_frame == 0
 
     def test_becoming_solid_again(self) -> None:
-        """UO-2: an attached object does at once; any other needs cells that know their objects."""
+        """UO-2: an attached object does at once; what any other asks its cells is not specified."""
         body = walker(state=ORDINARY | ETHEREAL_PS, transient=STANDING | CHECK_ETHEREAL_TS)
-        with pytest.raises(NotPortedError, match="UO-2"):
+        with pytest.raises(NotPortedError, match="check_collisions"):
             body.update_object_internal(EIGHTH)
         body.parent = walker()
         body.update_object_internal(EIGHTH)

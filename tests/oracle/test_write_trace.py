@@ -3,9 +3,10 @@
 from __future__ import annotations
 
 import pytest
-from oracle_worlds import CELL, FLOOR, at, mover, vec, world_of
+from oracle_worlds import CELL, FLOOR, OTHER_CELL, ScriptedCell, at, mover, vec, world_of
 from oracle_worlds import transition as make
 
+from conformance.trace_text import line_of, summarise
 from oracle.collision_info import CollisionInfo
 from oracle.object_info import ObjectInfo
 from oracle.plane import Plane
@@ -14,7 +15,17 @@ from oracle.transition import Transition
 from oracle.vector import Vector3
 from oracle.world import World
 from oracle.write_trace import UnknownTopicError, recording
-from oracle.writes import BSP, CONTACT_PLANE, LAST_KNOWN_PLANE, SLIDING, STATE, TOPICS, WALKABLE, WriteTrace
+from oracle.writes import (
+    BSP,
+    CELL_TRANSIT,
+    CONTACT_PLANE,
+    LAST_KNOWN_PLANE,
+    SLIDING,
+    STATE,
+    TOPICS,
+    WALKABLE,
+    WriteTrace,
+)
 
 HOOKED = (CollisionInfo, ObjectInfo, Plane, SpherePath, Transition, Vector3)
 FLOOR_PLANE = Plane(Vector3(0.0, 0.0, 1.0), -94.0)
@@ -22,7 +33,7 @@ FLOOR_PLANE = Plane(Vector3(0.0, 0.0, 1.0), -94.0)
 
 def lines(trace: WriteTrace) -> list[str]:
     """Return the trace's lines."""
-    return [entry.line for entry in trace.entries]
+    return [line_of(entry) for entry in trace.entries]
 
 
 def assert_restored() -> None:
@@ -61,7 +72,7 @@ def test_a_summary_by_caller_and_result() -> None:
     made = make(world_of(FLOOR), at(0.0, 0.0, 0.7), at(0.0, 0.0, 0.4))
     with recording(made) as trace:
         made.find_valid_position()
-    assert trace.summary() == {
+    assert summarise(trace.entries) == {
         (BSP, "find_env_collisions"): {"OK": 2, "ADJUSTED": 2},
         (CONTACT_PLANE, "find_collisions"): {"ADJUSTED": 3},
         (WALKABLE, "find_collisions"): {"ADJUSTED": 1},
@@ -81,6 +92,7 @@ def test_only_the_topics_that_are_asked_for(topic: str) -> None:
         with recording(made, topics) as trace:
             made.find_valid_position()
             made.init_sliding_normal(vec(1.0, 0.0, 0.5))
+            made.sphere_path.curr_cell = None
         return lines(trace)
 
     shares = [line for line in record(TOPICS) if line.startswith(f"[{topic}] ")]
@@ -94,8 +106,8 @@ def test_a_setter_is_one_write_of_its_caller() -> None:
     with recording(made, (SLIDING,)) as trace:
         made.init_sliding_normal(vec(0.0, -0.6, 0.8))
     assert lines(trace) == [
-        "[sliding] SlidingNormalValid: 0 -> 1 caller=init_sliding_normal",
-        "[sliding] SlidingNormal: n=(0,0,0) -> n=(0,-1,0) caller=init_sliding_normal",
+        "[sliding] SlidingNormalValid: 0 -> 1 caller=outside",
+        "[sliding] SlidingNormal: n=(0,0,0) -> n=(0,-1,0) caller=outside",
     ]
 
 
@@ -108,11 +120,8 @@ def test_the_same_value_again_is_no_write() -> None:
         assert not trace.entries
         made.init_contact_plane(CELL, Plane(vec(-0.0, 0.0, 1.0), -94.0), 0)
     assert lines(trace) == [
-        (
-            "[lkp-write] LastKnownContactPlane: n=(0,0,1) D=-94.000 -> n=(-0,0,1) D=-94.000 "
-            "caller=init_contact_plane"
-        ),
-        "[cp-write] ContactPlane: n=(0,0,1) D=-94.000 -> n=(-0,0,1) D=-94.000 caller=init_contact_plane",
+        ("[lkp-write] LastKnownContactPlane: n=(0,0,1) D=-94.000 -> n=(-0,0,1) D=-94.000 caller=outside"),
+        "[cp-write] ContactPlane: n=(0,0,1) D=-94.000 -> n=(-0,0,1) D=-94.000 caller=outside",
     ]
 
 
@@ -123,8 +132,8 @@ def test_two_calls_of_a_function_are_two_writes() -> None:
         for height in (-1.0, -2.0):
             made.init_contact_plane(CELL, Plane(vec(0.0, 0.0, 1.0), height), 0)
     assert [line.split(" -> ")[1] for line in lines(trace) if "ContactPlane:" in line] == [
-        "n=(0,0,1) D=-1.000 caller=init_contact_plane",
-        "n=(0,0,1) D=-2.000 caller=init_contact_plane",
+        "n=(0,0,1) D=-1.000 caller=outside",
+        "n=(0,0,1) D=-2.000 caller=outside",
     ]
 
 
@@ -168,7 +177,7 @@ def test_the_foot_is_the_low_point_of_the_check_position() -> None:
         with recording(transition, (STATE,)) as trace:
             transition.object_info.state = 0x100
         (entry,) = trace.entries
-        assert entry.line_with_foot == f"[state] State: 0x0 -> 0x100 caller=outside{foot}"
+        assert line_of(entry, with_foot=True) == f"[state] State: 0x0 -> 0x100 caller=outside{foot}"
 
 
 def test_every_transition_made_inside_is_watched_and_no_other() -> None:
@@ -181,6 +190,20 @@ def test_every_transition_made_inside_is_watched_and_no_other() -> None:
         CollisionInfo().init()
     assert [entry.transition for entry in trace.entries] == [1, 2]
     assert lines(trace) == ["[state] State: 0x0 -> 0x1 caller=init", "[state] State: 0x0 -> 0x2 caller=init"]
+
+
+def test_a_cell_transit_is_a_change_from_one_cell() -> None:
+    """Its first cell is none; another one is, and so is to be nowhere."""
+    world = world_of(FLOOR)
+    with recording(None, (CELL_TRANSIT,)) as trace:
+        made = make(world, at(0.0, 0.0, 0.7), at(0.0, 0.0, 0.4))
+        path = made.sphere_path
+        path.curr_cell = ScriptedCell([], cell_id=OTHER_CELL)
+        path.curr_cell = None
+    assert lines(trace) == [
+        "[cell-transit] CurrCell: 0xA9B40111 -> 0xA9B40112 caller=outside",
+        "[cell-transit] CurrCell: 0xA9B40112 -> none caller=outside",
+    ]
 
 
 def test_nothing_is_recorded_outside_the_block() -> None:

@@ -9,7 +9,7 @@ import numpy as np
 from conformance.candidates.engine_ops.values import floats, position
 from engine import layout as at
 from engine.body import rows_as_numbers
-from engine.body_layout import body_dtype
+from engine.body_layout import BODY_DTYPE
 from engine.constants import DEFAULT_ELASTICITY, DEFAULT_FRICTION, DEFAULT_STATE
 
 if TYPE_CHECKING:
@@ -45,19 +45,18 @@ class LiveBody:
 
     Attributes
     ----------
-    record : record of `engine.body_layout.body_dtype`
+    record : record of `engine.body_layout.BODY_DTYPE`
         Its row by field name.
     row : ndarray
         The same memory, as kernels see it.
     """
 
-    def __init__(self, block: Mapping[str, Any], cell: int = 0, num_objects: int = 0) -> None:
-        rows = np.zeros(1, dtype=body_dtype(num_objects))
+    def __init__(self, block: Mapping[str, Any], cell: int = 0) -> None:
+        rows = np.zeros(1, dtype=BODY_DTYPE)
         self.record: Final[Any] = rows[0]
         self.row: Final[Array] = rows_as_numbers(rows)[0]
         self.row[: at.POSITION_SIZE] = position(block.get("position", NOWHERE))
         record = self.record
-        record["collision_table"][:, 0] = np.nan
         record["cell"] = cell
         for name, default in DEFAULTS.items():
             record[name] = block.get(name, default)

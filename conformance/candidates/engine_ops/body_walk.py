@@ -9,12 +9,13 @@ from conformance.candidates.engine_ops.running import TRACE_CAPACITY
 from conformance.candidates.engine_ops.state_block import trace_text
 from conformance.candidates.engine_ops.values import floats, vector
 from conformance.candidates.engine_ops.world_cache import world_of
+from conformance.candidates.engine_ops.worlds import engine_world
 from engine import layout as at
 from engine.batch import check_status
 from engine.body_layout import OUTCOMES
 from engine.constants import CONTACT_TS, SLIDING_TS
-from engine.errors import OutdoorsError
 from engine.kernels import tick, tick_velocity
+from engine.tracing import runnable
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Mapping
@@ -30,9 +31,11 @@ TRANSITION_OUTCOMES: Final = ("failed", "moved", "lost")
 
 def _body_walk(query: Query) -> Fields:
     inputs = query.inputs
+    recorder: Recorder
     if "world" in inputs:
-        raise OutdoorsError("a world has landblocks, which the engine does not hold")
-    recorder = Recorder(world_of(inputs["cells"], query.geometries), inputs["body"])
+        recorder = WorldRecorder(engine_world(inputs["world"], query.geometries), inputs["body"])
+    else:
+        recorder = Recorder(world_of(inputs["cells"], query.geometries), inputs["body"])
     ticks: list[Fields] = []
     for given in inputs["ticks"]:
         ticks.append(recorder.tick(given))
@@ -46,9 +49,10 @@ class Recorder:
 
     def __init__(self, world: World, block: Mapping[str, Any]) -> None:
         self.world: Final = world
-        self.body: Final = LiveBody(block, world.cell_index(block["position"]["cell"]), world.num_objects)
+        self.body: Final = LiveBody(block, world.cell_index(block["position"]["cell"]))
         self.cell = int(self.body.record["cell_id"])
         self.state = int(self.body.record["state"])
+        self.touched: list[int] = []
 
     def tick(self, given: Mapping[str, Any]) -> Fields:
         """Perform one tick."""
@@ -65,7 +69,7 @@ class Recorder:
         if outcome in TRANSITION_OUTCOMES:
             fields["t"] = trace
         if outcome == "moved":
-            fields |= _touched(body)
+            fields |= self._touched()
         kills = int(record["kill_velocity"])
         return fields | ({"kill": kills} if kills else {})
 
@@ -75,10 +79,12 @@ class Recorder:
         before = row.copy()
         while True:
             state = self.world.new_row(trace_capacity=capacity)
-            tick.step_many(self.world.floats, self.world.ints, state, row.reshape(1, -1), quantum, 1)
+            step = runnable(tick.step_many)
+            step(self.world.floats, self.world.ints, state, row.reshape(1, -1), quantum, 1)
             check_status(self.body.record["status"].reshape(1))
             trace = trace_text(state, self.world.ints)
             if trace is not None:
+                self.touched = self.world.touched(state)
                 return trace
             row[:] = before
             capacity = int(state[at.TRACE_LENGTH])
@@ -104,24 +110,38 @@ class Recorder:
             fields["om"] = floats(record["omega"])
         return fields
 
+    def _touched(self) -> Fields:
+        """Write contact and collisions after a write-back."""
+        record = self.body.record
+        bits = int(record["transient_state"])
+        fields: Fields = {"cv": floats(record["cached_velocity"])}
+        if bits & CONTACT_TS:
+            fields["cp"] = floats(record["contact_plane"])
+            fields["cp_cell"] = int(record["contact_plane_cell_id"])
+        if bits & SLIDING_TS:
+            fields["sn"] = floats(record["sliding_normal"])
+        if record["collision_normal_valid"]:
+            fields["cn"] = floats(record["collision_normal"])
+        if record["frames_stationary_fall"]:
+            fields["fsf"] = int(record["frames_stationary_fall"])
+        if record["collided_with_environment"]:
+            fields["env"] = 1
+        return fields
 
-def _touched(body: LiveBody) -> Fields:
-    """Write contact and collisions after a write-back."""
-    record = body.record
-    bits = int(record["transient_state"])
-    fields: Fields = {"cv": floats(record["cached_velocity"])}
-    if bits & CONTACT_TS:
-        fields["cp"] = floats(record["contact_plane"])
-        fields["cp_cell"] = int(record["contact_plane_cell_id"])
-    if bits & SLIDING_TS:
-        fields["sn"] = floats(record["sliding_normal"])
-    if record["collision_normal_valid"]:
-        fields["cn"] = floats(record["collision_normal"])
-    if record["frames_stationary_fall"]:
-        fields["fsf"] = int(record["frames_stationary_fall"])
-    if record["collided_with_environment"]:
-        fields["env"] = 1
-    return fields
+
+class WorldRecorder(Recorder):
+    """Also writes what only a body in a world is told: the objects it touches, and the latch."""
+
+    def __init__(self, world: World, block: Mapping[str, Any]) -> None:
+        super().__init__(world, block)
+        self.body.record["tracks_objects"] = 1
+
+    def _always(self) -> Fields:
+        return super()._always() | ({"cwe": 1} if self.body.record["colliding_with_environment"] else {})
+
+    def _touched(self) -> Fields:
+        touched = [self.world.objects[thing].id for thing in self.touched]
+        return super()._touched() | ({"objs": touched} if touched else {})
 
 
 OPS: Final[dict[str, Callable[[Query], Fields]]] = {"body_walk": _body_walk}

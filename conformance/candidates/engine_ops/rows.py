@@ -69,6 +69,8 @@ def _take_mover(row: Any, mover: Mapping[str, Any]) -> None:
     row["may_step_down"] = mover["step_down"]
     for name in ("scale", "state", "step_up_height", "step_down_height", "ethereal", "gravity"):
         row[name] = mover[name]
+    for name, key in (("mover_id", "id"), ("mover_missile", "missile"), ("target_id", "target_id")):
+        row[name] = mover.get(key, 0)
 
 
 def _take_seed(row: Any, seed: Mapping[str, Any]) -> None:

@@ -10,6 +10,7 @@ from conformance.candidates.engine_ops.rows import numbers_of
 from conformance.candidates.engine_ops.state_block import trace_text
 from engine import layout as at
 from engine.batch import check_status
+from engine.tracing import runnable
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -22,13 +23,19 @@ TRACE_CAPACITY: Final = 1024
 
 def run(kernel: Callable[..., None], world: World, row: Any) -> tuple[Any, str]:
     """Run a query and return its result record and its trace."""
+    result, trace, _ = run_noting(kernel, world, row)
+    return result, trace
+
+
+def run_noting(kernel: Callable[..., None], world: World, row: Any) -> tuple[Any, str, list[int]]:
+    """Run a query; return its result record, its trace, and the objects it touched, by their indices."""
     capacity = TRACE_CAPACITY
     while True:
         state = world.new_row(trace_capacity=capacity)
         result = np.zeros(1, dtype=at.RESULT_DTYPE)
-        kernel(world.floats, world.ints, state, numbers_of(row), result.view(np.float64))
+        runnable(kernel)(world.floats, world.ints, state, numbers_of(row), result.view(np.float64))
         check_status(result["status"])
         trace = trace_text(state, world.ints)
         if trace is not None:
-            return result[0], trace
+            return result[0], trace, world.touched(state)
         capacity = int(state[at.TRACE_LENGTH])

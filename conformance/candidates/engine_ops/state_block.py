@@ -8,6 +8,8 @@ from conformance.candidates.engine_ops.values import floats, pose_block
 from engine import layout as at
 
 if TYPE_CHECKING:
+    from collections.abc import Sequence
+
     from conformance.query import Fields
     from engine.kernels.types import Array, Ints
     from engine.world import World
@@ -39,6 +41,17 @@ def state_block(result: Any, world: World) -> Fields:
     for name in ("frames_stationary_fall", "collided_with_environment", "state", "kill_velocity"):
         block[name] = int(result[name])
     return block
+
+
+def object_block(result: Any, touched: Sequence[int], world: World) -> Fields:
+    """Write what the state block has besides where there are objects; `touched` are their indices."""
+    last = int(result["last_collided_object"])
+    return {
+        "collide_objects": [world.objects[thing].id for thing in touched],
+        "last_collided": 0 if last == at.NO_OBJECT else world.objects[last].id,
+        "obstruction_ethereal": int(result["obstruction_ethereal"]),
+        "hits_interior_cell": int(result["hits_interior_cell"]),
+    }
 
 
 def walkable_geometry(result: Any, world: World) -> str | None:

@@ -14,7 +14,7 @@ from engine.constants import ETHEREAL, ON_WALKABLE_TS
 from engine.kernels import tick, tick_collisions, tick_contact, tick_position, tick_seed, tick_velocity
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Mapping, Sequence
+    from collections.abc import Callable, Mapping
 
     from conformance.query import Fields, Query
     from engine.kernels.types import Array
@@ -107,12 +107,11 @@ def _responded(body: LiveBody) -> Fields:
 def _collided_body(inputs: Mapping[str, Any]) -> tuple[LiveBody, Array]:
     """Return the body, knowing what is known to it, and a row of state with the COLLISIONS block."""
     block = inputs["collisions"]
-    touched = block.get("objects", ())
-    body = LiveBody(inputs["body"], CURRENT_CELL, num_objects=len(touched))
-    for thing in touched:
-        if thing.get("known", 0):
-            ethereal = int(thing["state"]) & ETHEREAL != 0
-            body.record["collision_table"][_place(thing, touched)] = 0.0, ethereal
+    body = LiveBody(inputs["body"], CURRENT_CELL)
+    known = {int(t["id"]): int(t["state"]) for t in block.get("objects", ()) if t.get("known", 0)}
+    body.record["num_records"] = len(known)
+    for record, (thing, bits) in zip(body.record["records"], known.items(), strict=False):
+        record[:] = thing, 0.0, bits & ETHEREAL != 0
     state = np.zeros(at.STATE_SIZE, dtype=np.float64)
     state[at.FRAMES_STATIONARY_FALL] = block["frames_stationary_fall"]
     state[at.COLLIDED_WITH_ENVIRONMENT] = block["collided_with_environment"]
@@ -122,18 +121,12 @@ def _collided_body(inputs: Mapping[str, Any]) -> tuple[LiveBody, Array]:
     return body, state
 
 
-def _place(thing: Mapping[str, Any], touched: Sequence[Mapping[str, Any]]) -> int:
-    """Return an object's place in the collision table; objects of one id share it."""
-    return [other["id"] for other in touched].index(thing["id"])
-
-
 def _respond(block: Mapping[str, Any], state: Array, body: LiveBody, *, on_walkable: bool) -> bool:
-    """Perform handle_all_collisions with objects that are in no world."""
+    """Perform handle_all_collisions with objects that are in no world: ids stand for their indices."""
     reported = False
-    touched = block.get("objects", ())
-    for thing in touched:
+    for thing in block.get("objects", ()):
         reported |= tick_collisions.track_object_collision(
-            body.row, _place(thing, touched), int(thing["state"]), bool(thing.get("weenie", 0))
+            body.row, int(thing["id"]), int(thing["state"]), bool(thing.get("weenie", 0))
         )
     return reported | tick_collisions.respond(state, body.row, on_walkable)
 
@@ -192,12 +185,12 @@ def _seed(query: Query) -> Fields:
 
 
 def _plane_block(seeded: Any, name: str) -> Fields:
-    """Write a seeded plane, valid or not."""
+    """Write a seeded plane, valid or not; retail's water flag is a bit of the body, here 0 or 1."""
     return {
         "valid": int(seeded[f"{name}_valid"]),
         "plane": floats(seeded[name]),
         "cell_id": int(seeded[f"{name}_cell_id"]),
-        "is_water": int(seeded[f"{name}_is_water"]),
+        "is_water": int(seeded[f"{name}_is_water"] != 0),
     }
 
 

@@ -10,9 +10,10 @@ from typing import TYPE_CHECKING, Any, Final
 import numpy as np
 
 from conformance.candidates.engine_ops.rows import query_row
-from conformance.candidates.engine_ops.running import run
+from conformance.candidates.engine_ops.running import run_noting
 from conformance.candidates.engine_ops.values import floats, vector
 from conformance.candidates.engine_ops.world_cache import world_of
+from conformance.candidates.engine_ops.worlds import engine_world
 from engine import layout as at
 from engine.constants import CONTACT, EPS, FLOOR_Z, ON_WALKABLE
 from engine.kernels.resolving import resolve
@@ -38,6 +39,13 @@ def _walk(query: Query) -> Fields:
     return {"ticks": [walker.tick(tick) for tick in inputs["ticks"]]}
 
 
+def _world_walk(query: Query) -> Fields:
+    inputs = query.inputs
+    world = engine_world(inputs["world"], query.geometries)
+    walker = WorldWalker(world, inputs["mover"], inputs["start"])
+    return {"ticks": [walker.tick(tick) for tick in inputs["ticks"]]}
+
+
 class Walker:
     """What moves, and what it knows of the ground it stands on.
 
@@ -47,6 +55,10 @@ class Walker:
         The mover, and as its start the pose that it is at.
     last : record of `engine.layout.RESULT_DTYPE` or None
         What the last successful transition ended in.
+    told_cell : int
+        Cell id from which a tick's is told: the start's.
+    touched : list of int
+        Indices of the objects that the last transition touched.
     stationary : set of int
         The flags 1, 2 (and 3) of ticks without movement.
     """
@@ -56,7 +68,8 @@ class Walker:
         self.row: Final = query_row(
             {"mover": mover, "from": start, "to": start}, world.cell_index(start["cell"])
         )
-        self.start_cell: Final = int(start["cell"])
+        self.told_cell = int(start["cell"])
+        self.touched: list[int] = []
         self.bits: Final = int(mover["state"]) & ~(CONTACT | ON_WALKABLE)
         self.last: Any = None
         self.stationary: set[int] = set()
@@ -69,13 +82,13 @@ class Walker:
             return {"r": "skip"}
         self.row["end"] = target
         self._seed(contact_ok=bool(tick.get("contact_ok", 1)))
-        result, trace = run(resolve, self.world, self.row)
+        result, trace, self.touched = run_noting(resolve, self.world, self.row)
         fields: Fields = {"r": int(result["result"]), "t": trace}
         if not result["result"]:
             self.row["start"][ROTATION] = target[ROTATION]
             return fields
         self._take_over(result)
-        return fields | self._written() | _collided(result)
+        return fields | self._written() | self._collided()
 
     def _target(self, tick: Mapping[str, Any]) -> Array:
         target: Array = self.row["start"].copy()
@@ -127,7 +140,7 @@ class Walker:
         fields: Fields = {"pos": floats(result["curr"][POINT])}
         if rotation != IDENTITY:
             fields["rot"] = rotation
-        if cell != self.start_cell:
+        if cell != self.told_cell:
             fields["cell"] = cell
         if self._has_contact:
             fields["cp"] = floats(result["contact_plane"])
@@ -136,6 +149,32 @@ class Walker:
         if result["sliding_normal_valid"]:
             fields["sn"] = floats(result["sliding_normal"])
         return fields
+
+    def _collided(self) -> Fields:
+        """Write what was hit."""
+        result = self.last
+        fields: Fields = {}
+        if result["collision_normal_valid"]:
+            fields["cn"] = floats(result["collision_normal"])
+        if result["frames_stationary_fall"]:
+            fields["fsf"] = int(result["frames_stationary_fall"])
+        if result["collided_with_environment"]:
+            fields["env"] = 1
+        kills = int(result["kill_velocity"])
+        return fields | ({"kill": kills} if kills else {})
+
+
+class WorldWalker(Walker):
+    """A walker in a world: it also tells of water and objects, and of its cell only when that changes."""
+
+    def _written(self) -> Fields:
+        fields = super()._written()
+        self.told_cell = int(self.last["curr"][0])
+        return fields | ({"water": 1} if self._has_contact and self.last["contact_plane_is_water"] else {})
+
+    def _collided(self) -> Fields:
+        touched = [self.world.objects[thing].id for thing in self.touched]
+        return super()._collided() | ({"objs": touched} if touched else {})
 
 
 _SEEDED: Final = tuple(
@@ -150,18 +189,5 @@ def _walkable(result: Any) -> bool:
     return bool(result["contact_plane"][2] >= FLOOR_Z)
 
 
-def _collided(result: Any) -> Fields:
-    """Write what was hit."""
-    fields: Fields = {}
-    if result["collision_normal_valid"]:
-        fields["cn"] = floats(result["collision_normal"])
-    if result["frames_stationary_fall"]:
-        fields["fsf"] = int(result["frames_stationary_fall"])
-    if result["collided_with_environment"]:
-        fields["env"] = 1
-    kills = int(result["kill_velocity"])
-    return fields | ({"kill": kills} if kills else {})
-
-
-OPS: Final[dict[str, Callable[[Query], Fields]]] = {"walk": _walk}
+OPS: Final[dict[str, Callable[[Query], Fields]]] = {"walk": _walk, "world_walk": _world_walk}
 """Operation name to function."""

@@ -6,14 +6,17 @@ from typing import TYPE_CHECKING, Any, Final
 from weakref import WeakKeyDictionary
 
 from conformance.scenes import model
+from engine.cells import Cell
 from engine.geometry import Leaf, Node, Shape
+from engine.objects import Obstacle
 from engine.pose import Pose
-from engine.world import Cell, StaticObject, World
+from engine.world import World
 
 if TYPE_CHECKING:
     from collections.abc import Mapping, MutableMapping, Sequence
 
     from engine.geometry import Tree
+
 
 SOLE_CELL: Final = 0x00010100
 """Id of the cell that holds a geometry which is asked about by itself."""
@@ -26,14 +29,23 @@ def engine_shape(geometry: model.Geometry) -> Shape:
     """Return the engine's form of a geometry, the same one for the same geometry object."""
     shape = _shapes.get(geometry)
     if shape is None:
-        shape = _shapes[geometry] = Shape(
-            geometry.vertices,
-            [polygon.vertices for polygon in geometry.polygons],
-            _tree(geometry.tree),
-            geometry.cell_planes,
-            name=geometry.name,
-        )
+        shape = _shapes[geometry] = _shape(geometry, geometry.cell_planes)
     return shape
+
+
+def unbounded_shape(geometry: model.Geometry) -> Shape:
+    """Return the form of a geometry that, as a cell, contains every point."""
+    return engine_shape(geometry) if geometry.cell_planes is None else _shape(geometry, None)
+
+
+def _shape(geometry: model.Geometry, cell_planes: Sequence[Sequence[float]] | None) -> Shape:
+    return Shape(
+        geometry.vertices,
+        [polygon.vertices for polygon in geometry.polygons],
+        _tree(geometry.tree),
+        cell_planes,
+        name=geometry.name,
+    )
 
 
 def sole_world(geometry: model.Geometry) -> World:
@@ -57,7 +69,7 @@ def world_around(inputs: Mapping[str, Any], geometry: model.Geometry) -> World:
         if inputs["scale"] != 1.0:
             raise ValueError(f"a cell is tested at scale 1, not {inputs['scale']}")
         return World([Cell(pose.cell, pose, shape)])
-    return World([Cell(pose.cell, pose, None, [StaticObject(shape, pose, inputs["scale"])])])
+    return World([Cell(pose.cell, pose, None, [Obstacle.solid(shape, pose, inputs["scale"])])])
 
 
 def engine_pose(pose: Mapping[str, Any]) -> Pose:
@@ -67,7 +79,7 @@ def engine_pose(pose: Mapping[str, Any]) -> Pose:
 
 def _cell(cell: Mapping[str, Any], geometries: Mapping[str, model.Geometry]) -> Cell:
     objects = [
-        StaticObject(
+        Obstacle.solid(
             engine_shape(geometries[static["geometry"]]),
             engine_pose(static["pose"]),
             static["scale"],

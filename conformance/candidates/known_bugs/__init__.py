@@ -9,9 +9,27 @@ from __future__ import annotations
 from typing import Final
 
 from conformance.candidates.bug_candidate import BugCandidate, KnownBug
-from conformance.candidates.known_bugs import limits, numbers, overlaps, planes, slides, steps
+from conformance.candidates.known_bugs import (
+    cells,
+    limits,
+    numbers,
+    overlaps,
+    planes,
+    shapes,
+    slides,
+    steps,
+)
 
-_BUGS: Final = (*planes.BUGS, *numbers.BUGS, *limits.BUGS, *overlaps.BUGS, *slides.BUGS, *steps.BUGS)
+_BUGS: Final = (
+    *planes.BUGS,
+    *numbers.BUGS,
+    *limits.BUGS,
+    *overlaps.BUGS,
+    *slides.BUGS,
+    *steps.BUGS,
+    *cells.BUGS,
+    *shapes.BUGS,
+)
 
 
 def list_bugs() -> tuple[KnownBug, ...]:

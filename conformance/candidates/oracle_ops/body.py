@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any
 
+from conformance.candidates.oracle_ops.objects import weenie
 from conformance.candidates.oracle_ops.values import plane, position, sphere, vector
 from oracle.arithmetic import f32
 from oracle.constants import DEFAULT_ELASTICITY, DEFAULT_FRICTION
@@ -15,7 +16,6 @@ from oracle.physics_part import PartArray, Setup
 from oracle.position import Position
 from oracle.transition import Transition
 from oracle.vector import Vector3
-from oracle.weenie import Weenie
 from oracle.world import World
 
 if TYPE_CHECKING:
@@ -95,18 +95,12 @@ class NamedCell(ObjCell):
         """Say that the cell has no neighbours."""
         raise self._nothing()
 
+    def find_transit_cells_of_parts(self, *_args: object) -> NoReturn:
+        """Say that the cell has no neighbours."""
+        raise self._nothing()
+
     def _nothing(self) -> NotPortedError:
         return NotPortedError(f"cell {self.id:#010x} without geometry")
-
-
-def weenie(block: Mapping[str, Any]) -> Weenie:
-    """Make the game object of a `weenie` block."""
-    return Weenie(
-        is_player=bool(block.get("player", 0)),
-        is_pk=bool(block.get("pk", 0)),
-        is_pklite=bool(block.get("pklite", 0)),
-        is_impenetrable=bool(block.get("impenetrable", 0)),
-    )
 
 
 def make_body(block: Mapping[str, Any]) -> Body:
@@ -123,7 +117,6 @@ def _part_array(block: Mapping[str, Any]) -> PartArray:
     """Make a part array that does not scale: the step heights of a BODY are final."""
     spheres = tuple(sphere(values) for values in block.get("spheres", ()))
     setup = Setup(
-        num_sphere=len(spheres),
         step_up_height=f32(block.get("step_up_height", 0.0)),
         step_down_height=f32(block.get("step_down_height", 0.0)),
         sphere=spheres,

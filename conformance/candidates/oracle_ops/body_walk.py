@@ -6,10 +6,10 @@ from typing import TYPE_CHECKING, Any, Final
 
 from conformance.candidates.oracle_ops.body import Body
 from conformance.candidates.oracle_ops.scene import build_world
-from conformance.candidates.oracle_ops.state_block import struck
+from conformance.candidates.oracle_ops.state_block import struck, touched_objects
 from conformance.candidates.oracle_ops.values import nxyzd, quaternion, vector, xyz
+from conformance.candidates.oracle_ops.world import build_world as world_of_record
 from oracle.arithmetic import f32
-from oracle.errors import NotPortedError
 from oracle.transient_state import ACTIVE_TS, CONTACT_TS, SLIDING_TS
 
 if TYPE_CHECKING:
@@ -19,8 +19,6 @@ if TYPE_CHECKING:
 
 IDENTITY: Final = [1.0, 0.0, 0.0, 0.0]
 """The rotation that a tick leaves out."""
-WORLD_PARTS: Final = {"landblocks": "terrain", "buildings": "buildings", "objects": "objects"}
-"""What a world holds besides environment cells, by its key."""
 
 
 class UntrackedBody(Body):
@@ -33,19 +31,28 @@ class UntrackedBody(Body):
 
 def _body_walk(query: Query) -> Fields:
     inputs = query.inputs
-    if "world" in inputs:
-        needed = [part for key, part in WORLD_PARTS.items() if inputs["world"].get(key)]
-        raise NotPortedError(f"a world with {', '.join(needed)} (07…10)")
-    world = build_world(inputs["cells"], query.geometries)
-    body = UntrackedBody(inputs["body"], world)
-    body.cell = world.cells[body.m_position.objcell_id]
-    recorder = Recorder(body)
+    recorder = _in_world(query) if "world" in inputs else _in_cells(query)
     ticks: list[Fields] = []
     for tick in inputs["ticks"]:
         ticks.append(recorder.tick(tick))
         if ticks[-1]["r"] == "lost":
             break
     return {"ticks": ticks}
+
+
+def _in_cells(query: Query) -> Recorder:
+    world = build_world(query.inputs["cells"], query.geometries)
+    body = UntrackedBody(query.inputs["body"], world)
+    body.cell = world.cells[body.m_position.objcell_id]
+    return Recorder(body)
+
+
+def _in_world(query: Query) -> WorldRecorder:
+    """Put a body into a world of its own, where it registers in the cells that it reaches."""
+    world = world_of_record(query.inputs["world"], query.geometries)
+    body = Body(query.inputs["body"], world)
+    body.cell = world.get_visible(body.m_position.objcell_id)
+    return WorldRecorder(body)
 
 
 class Recorder:
@@ -75,7 +82,7 @@ class Recorder:
         if body.begun is not None:
             fields["t"] = "".join(body.begun.trace or ())
         if fields["r"] == "moved":
-            fields |= _touched(body)
+            fields |= self._touched()
         if body.kill_velocity_calls != kills:
             fields["kill"] = body.kill_velocity_calls - kills
         return fields
@@ -101,6 +108,32 @@ class Recorder:
             fields["om"] = xyz(body.m_omega)
         return fields
 
+    def _touched(self) -> Fields:
+        """Write contact and collisions after a write-back."""
+        body = self.body
+        fields: Fields = {"cv": xyz(body.cached_velocity)}
+        if body.transient_state & CONTACT_TS:
+            fields |= {"cp": nxyzd(body.contact_plane), "cp_cell": body.contact_plane_cell_id}
+        if body.transient_state & SLIDING_TS:
+            fields["sn"] = xyz(body.sliding_normal)
+        if body.accepted is not None:
+            fields |= struck(body.accepted.collision_info)
+        return fields
+
+
+class WorldRecorder(Recorder):
+    """Also writes what only a body in a world is told: the objects it touches, and the latch."""
+
+    def _always(self) -> Fields:
+        fields = super()._always()
+        return fields | ({"cwe": 1} if self.body.colliding_with_environment else {})
+
+    def _touched(self) -> Fields:
+        fields = super()._touched()
+        if self.body.accepted is not None:
+            fields |= touched_objects(self.body.accepted.collision_info)
+        return fields
+
 
 def _outcome(body: Body) -> str:
     """Return the name of what a tick did to an active body."""
@@ -111,18 +144,6 @@ def _outcome(body: Body) -> str:
     if body.accepted is None:
         return "failed"
     return "lost" if body.cell is None else "moved"
-
-
-def _touched(body: Body) -> Fields:
-    """Write contact and collisions after a write-back."""
-    fields: Fields = {"cv": xyz(body.cached_velocity)}
-    if body.transient_state & CONTACT_TS:
-        fields |= {"cp": nxyzd(body.contact_plane), "cp_cell": body.contact_plane_cell_id}
-    if body.transient_state & SLIDING_TS:
-        fields["sn"] = xyz(body.sliding_normal)
-    if body.accepted is not None:
-        fields |= struck(body.accepted.collision_info)
-    return fields
 
 
 OPS: Final[dict[str, Callable[[Query], Fields]]] = {"body_walk": _body_walk}

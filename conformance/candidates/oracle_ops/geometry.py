@@ -8,9 +8,11 @@ from weakref import WeakKeyDictionary
 
 from conformance.candidates.oracle_ops.values import plane, sphere, vector
 from conformance.scenes.model import Leaf
+from oracle.bbox import BBox
 from oracle.bsp_leaf import BSPLeaf
 from oracle.bsp_node import BSPNode
 from oracle.bsp_tree import BSPTree
+from oracle.physics_part import GfxObj
 from oracle.polygon import Polygon
 from oracle.sphere import Sphere
 from oracle.vector import Vector3
@@ -33,11 +35,14 @@ class OracleGeometry:
         The physics BSP.
     cell_tree : BSPTree or None
         The cell BSP; None contains everything.
+    gfx_obj : GfxObj
+        The same tree, and the box of all vertices, for parts of objects.
     """
 
     polygons: tuple[Polygon, ...]
     tree: BSPTree
     cell_tree: BSPTree | None
+    gfx_obj: GfxObj
 
 
 CACHE: MutableMapping[Geometry, OracleGeometry] = WeakKeyDictionary()
@@ -58,7 +63,10 @@ def _build(geometry: Geometry) -> OracleGeometry:
         Polygon([corners[i] for i in polygon.vertices], index, polygon.sides)
         for index, polygon in enumerate(geometry.polygons)
     )
-    return OracleGeometry(polygons, BSPTree(_build_tree(geometry.tree, polygons)), _cell_tree(geometry))
+    tree = BSPTree(_build_tree(geometry.tree, polygons))
+    return OracleGeometry(
+        polygons, tree, _cell_tree(geometry), GfxObj(tree, bounding_box=BBox.around(corners))
+    )
 
 
 def _build_tree(tree: Tree, polygons: Sequence[Polygon]) -> BSPNode:

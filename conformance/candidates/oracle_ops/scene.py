@@ -9,7 +9,7 @@ from conformance.candidates.oracle_ops.values import position
 from oracle.arithmetic import f32
 from oracle.env_cell import CellPortal, CellStruct, EnvCell
 from oracle.physics_object import PhysicsObj
-from oracle.physics_part import GfxObj, PartArray, PhysicsPart
+from oracle.physics_part import PartArray, PhysicsPart
 from oracle.vector import Vector3
 from oracle.world import World
 
@@ -26,8 +26,8 @@ def static_object(static: Mapping[str, Any], geometries: Mapping[str, Geometry])
     """Make the object of a STATIC block: one part with its own pose and scale."""
     pose = position(static["pose"])
     scale = f32(static["scale"])
-    tree = oracle_geometry(geometries[static["geometry"]]).tree
-    part = PhysicsPart(GfxObj(tree), pose, Vector3(scale, scale, scale))
+    gfxobj = oracle_geometry(geometries[static["geometry"]]).gfx_obj
+    part = PhysicsPart(gfxobj, pose, Vector3(scale, scale, scale))
     parts = PartArray([part], None, Vector3(scale, scale, scale))
     return PhysicsObj(0, static["state"], pose, scale=scale, part_array=parts)
 

@@ -76,6 +76,24 @@ def state_block(transition: Transition) -> Fields:
     }
 
 
+def touched_block(transition: Transition) -> Fields:
+    """Write what the state block has besides where there are objects."""
+    sp, ci = transition.sphere_path, transition.collision_info
+    last = ci.last_collided_object
+    return {
+        "collide_objects": [touched.id for touched in ci.collide_object],
+        "last_collided": 0 if last is None else last.id,
+        "obstruction_ethereal": sp.obstruction_ethereal,
+        "hits_interior_cell": sp.hits_interior_cell,
+    }
+
+
+def traced_state(transition: Transition) -> Fields:
+    """Write the trace and the state block."""
+    trace: Fields = {"trace": "".join(transition.trace or ())}
+    return trace | state_block(transition)
+
+
 def geometry_of(polygon: Polygon, geometries: Iterable[Geometry]) -> str:
     """Return the name of the geometry that a polygon belongs to.
 
@@ -116,3 +134,8 @@ def struck(ci: CollisionInfo) -> Fields:
     if ci.collided_with_environment:
         fields["env"] = 1
     return fields
+
+
+def touched_objects(ci: CollisionInfo) -> Fields:
+    """Write the objects that a tick of a walk in a world has touched; no key without any."""
+    return {"objs": [touched.id for touched in ci.collide_object]} if ci.collide_object else {}

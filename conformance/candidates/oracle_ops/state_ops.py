@@ -5,13 +5,13 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Any, Final
 
 from conformance.candidates.dispatch_names import DISPATCH_NAMES
-from conformance.candidates.oracle_ops.blocks import take_mover, take_seed
+from conformance.candidates.oracle_ops.blocks import at_check_pos, take_mover, take_path, take_seed
 from conformance.candidates.oracle_ops.geometry import oracle_geometry
 from conformance.candidates.oracle_ops.scene import build_world
 from conformance.candidates.oracle_ops.state_block import (
     centers,
     geometry_of,
-    state_block,
+    traced_state,
     valid_normal,
 )
 from conformance.candidates.oracle_ops.values import plane, position, vector, xyz
@@ -31,18 +31,6 @@ if TYPE_CHECKING:
 STATIC_WITH_BSP: Final = 0x10001
 """PhysicsState of the static that a ``find_collisions`` query puts its geometry into."""
 
-PATH_FLAGS: Final = (
-    "step_down",
-    "check_walkable",
-    "collide",
-    "obstruction_ethereal",
-    "bldg_check",
-    "hits_interior_cell",
-)
-"""Integer fields of the path block, 0 if absent."""
-PATH_NUMBERS: Final = ("step_down_amt", "walk_interp", "walkable_allowance")
-"""Float fields of the path block, 0 if absent."""
-
 
 def find_collisions(query: Query) -> Fields:
     """One call of a BSP tree, as a cell's or a static's, with the path state given."""
@@ -50,11 +38,9 @@ def find_collisions(query: Query) -> Fields:
     as_static = inputs["as"] == "static"
     world = build_world([_only_cell(inputs, as_static=as_static)], query.geometries)
     cell = world.cells[inputs["pose"]["cell"]]
-    transition = _at_check_pos(inputs, world, trace_to=[])
+    transition = at_check_pos(inputs, world, cell, trace_to=[])
     path = transition.sphere_path
-    path.begin_cell = path.curr_cell = path.check_cell = cell
-    take_seed(transition, inputs["seed"])
-    _take_path(transition, inputs["path"])
+    take_path(transition, inputs["path"])
     tree = oracle_geometry(query.geometries[inputs["geometry"]]).tree
     if as_static:
         _static_part(cell.shadow_object_list[0]).cache_local_space(path)
@@ -67,7 +53,7 @@ def find_collisions(query: Query) -> Fields:
         letter = trace.dispatch(transition)
         result = tree.find_collisions(transition, f32(inputs["scale"]))
     outcome: Fields = {"dispatch": DISPATCH_NAMES[letter], "result": result.name}
-    return outcome | _traced_state(transition)
+    return outcome | traced_state(transition)
 
 
 def transition(query: Query) -> Fields:
@@ -77,12 +63,12 @@ def transition(query: Query) -> Fields:
     end = position(inputs["to"])
     begin = None if inputs["from"] is None else position(inputs["from"])
     made = Transition(world, trace=[])
-    take_seed(made, inputs["seed"])
     take_mover(made, inputs["mover"], end if begin is None else begin)
+    take_seed(made, inputs["seed"])
     made.sphere_path.placement_allows_sliding = inputs.get("placement_allows_sliding", 1)
     made.init_path(world.cells[inputs["begin_cell"]], begin, end)
     outcome: Fields = {"result": made.find_valid_position()}
-    outcome |= _traced_state(made)
+    outcome |= traced_state(made)
     walkable = made.sphere_path.walkable
     if walkable is not None:
         outcome["walkable_geometry"] = geometry_of(walkable, query.geometries.values())
@@ -91,7 +77,7 @@ def transition(query: Query) -> Fields:
 
 def slide_sphere(query: Query) -> Fields:
     """`CSphere::slide_sphere` of sphere 0 with a given normal."""
-    made = _seeded(query.inputs)
+    made = _nowhere(query.inputs)
     sp = made.sphere_path
     normal = vector(query.inputs["normal"])
     result = sp.global_sphere[0].slide_sphere(sp, made.collision_info, normal, sp.global_curr_center[0])
@@ -101,7 +87,7 @@ def slide_sphere(query: Query) -> Fields:
 
 def adjust_offset(query: Query) -> Fields:
     """`CTransition::adjust_offset` of a given offset."""
-    made = _seeded(query.inputs)
+    made = _nowhere(query.inputs)
     offset = made.adjust_offset(vector(query.inputs["offset"]))
     outcome: Fields = {"offset": xyz(offset)}
     return outcome | _moved(made)
@@ -109,14 +95,14 @@ def adjust_offset(query: Query) -> Fields:
 
 def cliff_slide(query: Query) -> Fields:
     """`CTransition::cliff_slide` with a given new contact plane."""
-    made = _seeded(query.inputs)
+    made = _nowhere(query.inputs)
     outcome: Fields = {"result": made.cliff_slide(plane(query.inputs["plane"])).name}
     return outcome | _moved(made)
 
 
 def cache_localspace_sphere(query: Query) -> Fields:
     """`SPHEREPATH::cache_localspace_sphere` for a given pose and scale."""
-    made = _at_check_pos(query.inputs, World(), trace_to=None)
+    made = _nowhere(query.inputs)
     sp = made.sphere_path
     sp.cache_localspace_sphere(position(query.inputs["pose"]), f32(query.inputs["scale"]))
     count = sp.num_sphere
@@ -150,29 +136,8 @@ def _only_cell(inputs: Mapping[str, Any], *, as_static: bool) -> dict[str, Any]:
     return cell
 
 
-def _at_check_pos(inputs: Mapping[str, Any], world: World, *, trace_to: list[str] | None) -> Transition:
-    """Make a transition at current position `from` and check position `to`, in no cell."""
-    made = Transition(world, trace_to)
-    begin, end = position(inputs["from"]), position(inputs["to"])
-    take_mover(made, inputs["mover"], begin)
-    made.init_path(None, begin, end)
-    made.sphere_path.set_check_pos(end, None)
-    return made
-
-
-def _seeded(inputs: Mapping[str, Any]) -> Transition:
-    made = _at_check_pos(inputs, World(), trace_to=None)
-    take_seed(made, inputs["seed"])
-    return made
-
-
-def _take_path(made: Transition, path: Mapping[str, Any]) -> None:
-    sp = made.sphere_path
-    sp.insert_type = InsertType(path.get("insert_type", 0))
-    for name in PATH_FLAGS:
-        setattr(sp, name, path.get(name, 0))
-    for name in PATH_NUMBERS:
-        setattr(sp, name, f32(path.get(name, 0)))
+def _nowhere(inputs: Mapping[str, Any]) -> Transition:
+    return at_check_pos(inputs, World(), None, trace_to=None)
 
 
 def _static_part(obstacle: PhysicsObj) -> PhysicsPart:
@@ -182,11 +147,6 @@ def _static_part(obstacle: PhysicsObj) -> PhysicsPart:
     if part is None:
         raise TypeError("a static's part is missing")
     return part
-
-
-def _traced_state(made: Transition) -> Fields:
-    block: Fields = {"trace": "".join(made.trace or ())}
-    return block | state_block(made)
 
 
 def _moved(made: Transition) -> Fields:

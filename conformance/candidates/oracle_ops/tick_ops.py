@@ -4,7 +4,8 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any, Final
 
-from conformance.candidates.oracle_ops.body import Body, NamedCell, make_body, weenie
+from conformance.candidates.oracle_ops.body import Body, NamedCell, make_body
+from conformance.candidates.oracle_ops.objects import weenie
 from conformance.candidates.oracle_ops.state_block import pose_block, valid_normal
 from conformance.candidates.oracle_ops.values import nxyzd, plane, position, quaternion, vector, xyz
 from oracle.arithmetic import f32

@@ -1,4 +1,4 @@
-"""Recorded moves, one transition after the other (``walk.jsonl``), by the oracle.
+"""Recorded moves, one transition after the other (``walk.jsonl``, ``world_walk.jsonl``), by the oracle.
 
 The walker here is not an object with a velocity: it carries from tick to tick exactly what FORMAT.md says.
 """
@@ -9,8 +9,9 @@ from typing import TYPE_CHECKING, Any, Final
 
 from conformance.candidates.oracle_ops.blocks import take_mover
 from conformance.candidates.oracle_ops.scene import build_world
-from conformance.candidates.oracle_ops.state_block import struck
+from conformance.candidates.oracle_ops.state_block import struck, touched_objects
 from conformance.candidates.oracle_ops.values import frame, nxyzd, position, quaternion, vector, xyz
+from conformance.candidates.oracle_ops.world import oracle_world
 from oracle.arithmetic import f32
 from oracle.constants import FLOOR_Z
 from oracle.enums import CONTACT_OI, ON_WALKABLE_OI
@@ -36,6 +37,13 @@ def _walk(query: Query) -> Fields:
     return {"ticks": [walker.tick(tick) for tick in inputs["ticks"]]}
 
 
+def _world_walk(query: Query) -> Fields:
+    inputs = query.inputs
+    world = oracle_world(inputs["world"], query.geometries)
+    walker = WorldWalker(world, inputs["mover"], position(inputs["start"]))
+    return {"ticks": [walker.tick(tick) for tick in inputs["ticks"]]}
+
+
 class Walker:
     """What moves, and what it knows of the ground it stands on.
 
@@ -43,6 +51,8 @@ class Walker:
     ----------
     contact, on_walkable, sliding : bool
         Whether `plane` and `sliding_normal` count, and whether the plane can be stood on.
+    told_cell : int
+        Cell id from which a tick's is told: the start's.
     is_water : int
         Whether the plane is that of water.
     stationary : set of int
@@ -53,7 +63,7 @@ class Walker:
         self.world = world
         self.mover = mover
         self.position = start
-        self.start_cell = start.objcell_id
+        self.told_cell = start.objcell_id
         self.cell = world.get_visible(start.objcell_id)
         self.contact = False
         self.plane = Plane(Vector3(), 0.0)
@@ -78,7 +88,7 @@ class Walker:
             self._turn(target)
             return fields
         self._take_over(made)
-        return fields | self._written() | _collided(made)
+        return fields | self._written() | self._collided(made)
 
     def _target(self, tick: Mapping[str, Any]) -> Position:
         target = self.position.copy()
@@ -100,13 +110,14 @@ class Walker:
         made = Transition(self.world, trace=[])
         state = self.mover["state"] & ~(CONTACT_OI | ON_WALKABLE_OI)
         if self.contact and contact_ok:
-            made.init_contact_plane(self.plane_cell, self.plane, self.is_water)
             state |= CONTACT_OI | (ON_WALKABLE_OI if self.on_walkable else 0)
+        take_mover(made, {**self.mover, "state": state}, self.position)
+        if self.contact and contact_ok:
+            made.init_contact_plane(self.plane_cell, self.plane, self.is_water)
         elif self.contact:
             made.init_last_known_contact_plane(self.plane_cell, self.plane, self.is_water)
         if self.sliding:
             made.init_sliding_normal(self.sliding_normal)
-        take_mover(made, {**self.mover, "state": state}, self.position)
         made.collision_info.frames_stationary_fall = max(self.stationary, default=0)
         return made
 
@@ -132,7 +143,7 @@ class Walker:
         fields: Fields = {"pos": xyz(self.position.frame.origin)}
         if rotation != IDENTITY:
             fields["rot"] = rotation
-        if self.position.objcell_id != self.start_cell:
+        if self.position.objcell_id != self.told_cell:
             fields["cell"] = self.position.objcell_id
         if self.contact:
             fields |= {"cp": nxyzd(self.plane), "cp_cell": self.plane_cell, "onw": int(self.on_walkable)}
@@ -140,12 +151,23 @@ class Walker:
             fields["sn"] = xyz(self.sliding_normal)
         return fields
 
+    def _collided(self, made: Transition) -> Fields:
+        """Write what was hit."""
+        kills = made.object_info.mover().kill_velocity_calls
+        return struck(made.collision_info) | ({"kill": kills} if kills else {})
 
-def _collided(made: Transition) -> Fields:
-    """Write what was hit."""
-    kills = made.object_info.mover().kill_velocity_calls
-    return struck(made.collision_info) | ({"kill": kills} if kills else {})
+
+class WorldWalker(Walker):
+    """A walker in a world: it also tells of water and objects, and of its cell only when that changes."""
+
+    def _written(self) -> Fields:
+        fields = super()._written()
+        self.told_cell = self.position.objcell_id
+        return fields | ({"water": 1} if self.contact and self.is_water else {})
+
+    def _collided(self, made: Transition) -> Fields:
+        return super()._collided(made) | touched_objects(made.collision_info)
 
 
-OPS: Final[dict[str, Callable[[Query], Fields]]] = {"walk": _walk}
+OPS: Final[dict[str, Callable[[Query], Fields]]] = {"walk": _walk, "world_walk": _world_walk}
 """Operation name to function."""

@@ -32,7 +32,7 @@ CELL_FILES: Final = "0x????????.json"
 OBJECT_FILES: Final = "0x????????.gfxobj.json"
 
 OUTDOORS: Final = 0xFFFF
-"""What a portal to the landscape has in place of a cell; such portals are left out."""
+"""What a portal to the landscape has in place of a cell; `read_cell` leaves such portals out."""
 LANDBLOCK: Final = 0xFFFF0000
 """The bits of a cell id that name its landblock."""
 STYLE: Final = TreeStyle.FRONT
@@ -135,7 +135,7 @@ def _object(record: Any) -> Geometry:
 
 
 def _geometry(record: Any, name: str, kind: str) -> Geometry:
-    shape: Shape = each(record, "polygons", "", _polygon)
+    shape: Shape = each(record, "polygons", "", dumped_polygon)
     ids = each(record, "polygons", "", lambda polygon, path: whole(member(polygon, "id", path), f"{path}.id"))
     for i, polygon_id in enumerate(ids):
         if polygon_id != i:
@@ -143,7 +143,7 @@ def _geometry(record: Any, name: str, kind: str) -> Geometry:
     return build(name, shape, style=STYLE, kind=kind)
 
 
-def _polygon(record: Any, path: str) -> Corners:
+def dumped_polygon(record: Any, path: str) -> Corners:
     """Return the corners of a polygon that is valid and faces as its dumped plane says."""
     corners = tuple(round_point(corner) for corner in each(record, "v", path, floats_of(3)))
     check(polygon_errors(corners, path))

@@ -1,0 +1,40 @@
+"""Single moves in a world (``world_transition.jsonl``), by the oracle."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Final
+
+from conformance.candidates.oracle_ops.blocks import take_mover, take_seed
+from conformance.candidates.oracle_ops.state_block import geometry_of, touched_block, traced_state
+from conformance.candidates.oracle_ops.values import position
+from conformance.candidates.oracle_ops.world import oracle_world
+from oracle.transition import Transition
+
+if TYPE_CHECKING:
+    from collections.abc import Callable
+
+    from conformance.query import Fields, Query
+
+
+def _world_transition(query: Query) -> Fields:
+    """One `find_valid_position` call."""
+    inputs = query.inputs
+    world = oracle_world(inputs["world"], query.geometries)
+    end = position(inputs["to"])
+    begin = None if inputs["from"] is None else position(inputs["from"])
+    first = end if begin is None else begin
+    made = Transition(world, trace=[])
+    take_mover(made, inputs["mover"], first)
+    take_seed(made, inputs["seed"])
+    made.sphere_path.placement_allows_sliding = inputs.get("placement_allows_sliding", 1)
+    made.init_path(world.get_visible(first.objcell_id), begin, end)
+    outcome: Fields = {"result": made.find_valid_position()}
+    outcome |= traced_state(made) | touched_block(made)
+    walkable = made.sphere_path.walkable
+    if walkable is not None:
+        outcome["walkable_geometry"] = geometry_of(walkable, query.geometries.values())
+    return outcome
+
+
+OPS: Final[dict[str, Callable[[Query], Fields]]] = {"world_transition": _world_transition}
+"""Operation name to function."""

@@ -1,0 +1,63 @@
+"""Environment cells and their portals, given as plain data (09)."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+if TYPE_CHECKING:
+    from collections.abc import Sequence
+
+    from engine.geometry import Shape
+    from engine.objects import Obstacle
+    from engine.pose import Pose
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Portal:
+    """A way out of a cell.
+
+    Attributes
+    ----------
+    other : int or None
+        Id of the cell behind it, which need not be in the world; None is the outside.
+    polygon : sequence of sequences of float, or None
+        Corners x, y, z in the cell's frame, metres. Only their plane counts, and only where no cell of
+        the world is behind the portal; then they cannot be left out.
+    side : int
+        The cell's interior is on the positive (0) or the negative (1) side of that plane.
+    """
+
+    other: int | None
+    polygon: Sequence[Sequence[float]] | None = None
+    side: int = 0
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Cell:
+    """An environment cell.
+
+    Attributes
+    ----------
+    id : int
+        Cell id; the low 16 bits of an indoor cell are at least 0x100.
+    pose : Pose
+        Where the cell's frame is.
+    shape : Shape or None
+        Its collision geometry and containment planes; None collides with nothing and contains every
+        point.
+    objects : sequence of Obstacle
+        In the order in which they are tested.
+    portals : sequence of Portal or int, or None
+        In the order in which they are looked at; the id of a cell of this world stands for a portal
+        to it. None is retail's missing list: such a cell contains no point.
+    stab : sequence of int
+        Ids of the cells that may be visible from it, in order.
+    """
+
+    id: int
+    pose: Pose
+    shape: Shape | None
+    objects: Sequence[Obstacle] = ()
+    portals: Sequence[Portal | int] | None = ()
+    stab: Sequence[int] = ()

@@ -1,0 +1,97 @@
+"""A world's two arrays while they grow, and the shapes, which come first in them."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Final
+
+import numpy as np
+
+from engine import layout as at
+
+if TYPE_CHECKING:
+    from collections.abc import Mapping, Sequence
+
+    from engine.geometry import Shape
+    from engine.kernels.types import Array, Ints
+
+
+class Storage:
+    """Nodes in front, and behind them whatever is appended.
+
+    Parameters
+    ----------
+    shapes : sequence of Shape
+        Every geometry once; its index here is its index in the world.
+
+    Attributes
+    ----------
+    polygons : list of int
+        Where the polygon records of each shape begin.
+    """
+
+    def __init__(self, shapes: Sequence[Shape]) -> None:
+        nodes = int(at.FIRST_NODE) + sum(len(shape.node_ints) for shape in shapes)
+        header_nodes = int(at.FIRST_NODE)
+        self._node_floats: list[Array] = [np.zeros(at.NODE_FLOATS * header_nodes, dtype=np.float64)]
+        self._node_ints: list[Ints] = [np.zeros(at.NODE_INTS * header_nodes, dtype=np.int64)]
+        self._num_floats = int(at.NODE_FLOATS) * nodes
+        self._num_ints = int(at.NODE_INTS) * nodes
+        self._floats: list[Array] = []
+        self._ints: list[Ints] = []
+        self.polygons: Final[list[int]] = []
+        self._roots: dict[int, int] = {}
+        self._planes: dict[int, tuple[int, int]] = {}
+        first = header_nodes
+        for index, shape in enumerate(shapes):
+            self._add_shape(index, shape, first)
+            first += len(shape.node_ints)
+
+    def add_floats(self, values: Array) -> int:
+        """Append numbers; return where they begin."""
+        offset = self._num_floats
+        self._floats.append(values)
+        self._num_floats += len(values)
+        return offset
+
+    def add_ints(self, values: Sequence[int] | Ints) -> int:
+        """Append integers; return where they begin."""
+        offset = self._num_ints
+        self._ints.append(np.asarray(values, dtype=np.int64))
+        self._num_ints += len(values)
+        return offset
+
+    def root_of(self, shape: Shape | None) -> int:
+        """Return the root node of a shape's tree."""
+        return int(at.NO_TREE) if shape is None else self._roots[id(shape)]
+
+    def planes_of(self, shape: Shape | None) -> tuple[int, int]:
+        """Return where a shape's containment planes begin, and how many they are."""
+        return (0, int(at.NO_PLANES)) if shape is None else self._planes[id(shape)]
+
+    def finish(self, header: Mapping[int, int]) -> tuple[Array, Ints]:
+        """Return the arrays, with the header written."""
+        floats = np.concatenate([*self._node_floats, *self._floats])
+        ints = np.concatenate([*self._node_ints, *self._ints])
+        for place, value in header.items():
+            ints[place] = value
+        return floats, ints
+
+    def _add_shape(self, index: int, shape: Shape, first: int) -> None:
+        """Append a shape; its tree gets node numbers from `first` on."""
+        polygons = shape.polygon_floats.copy()
+        polygons[shape.polygon_offsets + at.POLYGON_SHAPE] = index
+        base = self.add_floats(polygons)
+        self.polygons.append(base)
+        leaf_lists = self.add_ints(base + shape.polygon_offsets[shape.leaf_polygons])
+        nodes = shape.node_ints.copy()
+        interior = nodes[:, at.NODE_KIND] == at.KIND_NODE
+        nodes[interior, at.NODE_POSITIVE] += first
+        nodes[interior, at.NODE_NEGATIVE] += first
+        nodes[~interior, at.LEAF_FIRST] += leaf_lists
+        self._node_floats.append(shape.node_floats.ravel())
+        self._node_ints.append(nodes.ravel())
+        self._roots[id(shape)] = first
+        if shape.cell_planes is None:
+            self._planes[id(shape)] = (0, int(at.NO_PLANES))
+        else:
+            self._planes[id(shape)] = (self.add_floats(shape.cell_planes.ravel()), len(shape.cell_planes))

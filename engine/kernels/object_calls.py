@@ -1,0 +1,51 @@
+"""One call of an obstacle, of a cell's obstacles or of a whole cell, and many of them."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from engine import layout as at
+from engine.constants import NEEDS_STEP_UP, TARGET_CELL, TARGET_OBJECT, TARGET_OBJECTS
+from engine.kernels.compile import entry, pasted
+from engine.kernels.insertion import answer_step_up, find_in_cell, find_obj_collisions, find_object
+from engine.kernels.objects import test_object_shape
+from engine.kernels.path import set_check_pos
+from engine.kernels.query import prepare, report, set_path_fields
+
+if TYPE_CHECKING:
+    from engine.kernels.types import Array, Ints
+
+
+@pasted
+def _call(wf: Array, wi: Ints, s: Array, q: Array) -> int:
+    """Test the mover against what the query names; a TransitionState."""
+    kind, cell, thing = int(q[at.Q_TARGET_KIND]), int(q[at.Q_TARGET_CELL]), int(q[at.Q_TARGET_OBJECT])
+    if kind == TARGET_CELL:
+        return find_in_cell(wf, wi, s, cell)
+    if kind == TARGET_OBJECTS:
+        return find_obj_collisions(wf, wi, s, cell)
+    if kind == TARGET_OBJECT:
+        return find_object(wf, wi, s, thing)
+    ts = test_object_shape(wf, wi, s, thing, 0)
+    return answer_step_up(wf, wi, s) if ts == NEEDS_STEP_UP else ts
+
+
+@entry
+def meet(wf: Array, wi: Ints, s: Array, q: Array, out: Array) -> None:
+    """Answer one query: test the mover at the end pose against obstacles.
+
+    retail: what calls CSphere::intersects_sphere 0x00537FD0, CCylSphere::intersects_sphere 0x0053B8F0,
+    CPhysicsObj::FindObjCollisions 0x0050F050, CObjCell::find_obj_collisions 0x0052B750 or
+    CEnvCell::find_collisions 0x0052C100
+    """
+    prepare(s, q)
+    set_check_pos(s, at.END_POS, s[at.CURR_CELL])
+    set_path_fields(s, q)
+    report(wf, s, out, _call(wf, wi, s, q))
+
+
+@entry
+def meet_many(wf: Array, wi: Ints, s: Array, queries: Array, out: Array) -> None:
+    """Answer many queries, one after the other, in one row of state."""
+    for i in range(len(queries)):
+        meet(wf, wi, s, queries[i], out[i])

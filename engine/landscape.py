@@ -1,0 +1,69 @@
+"""Landblocks and the buildings on them, given as plain data (09, 3.7; 10)."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+if TYPE_CHECKING:
+    from collections.abc import Sequence
+
+    from engine.geometry import Shape
+    from engine.pose import Pose
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class LandBlock:
+    """The ground of a landblock: 64 land cells, each an edge of 24 metres.
+
+    Attributes
+    ----------
+    id : int
+        The high 16 bits of its cells' ids: 256 * x + y, both at most 254.
+    heights : sequence of 81 floats
+        Metres; vertex 9 * i + j is the i-th from the west, j-th from the south.
+    terrain : sequence of 81 int, or None
+        Terrain words of the same vertices: bits 2 to 6 are the terrain type, 16 to 20 of which are water.
+        None: all 0.
+    """
+
+    id: int
+    heights: Sequence[float]
+    terrain: Sequence[int] | None = None
+
+
+@dataclass(frozen=True, slots=True)
+class BuildingPortal:
+    """A way into a building.
+
+    Attributes
+    ----------
+    other : int
+        Id of the cell behind it, which need not be in the world.
+    other_portal : int
+        Index of the portal in that cell; negative for none, which leads nowhere.
+    """
+
+    other: int
+    other_portal: int = 0
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Building:
+    """The outside of a house, in the land cell under its origin.
+
+    Retail drops a building that is in no land cell of the world, and any but the first in a cell.
+
+    Attributes
+    ----------
+    pose : Pose
+        Where it is, in its landblock.
+    shape : Shape or None
+        Geometry of its part 0, the only one that is collided with.
+    portals : sequence of BuildingPortal
+        In the order in which they are looked at.
+    """
+
+    pose: Pose
+    shape: Shape | None
+    portals: Sequence[BuildingPortal] = ()

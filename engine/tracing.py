@@ -1,0 +1,68 @@
+"""Who writes contact planes, walkables, sliding normals, state and cells while the engine runs.
+
+Inside `recording`, kernels are run by Python instead of compiled (`engine.tracing_interpreter`): some
+thousand times slower, with the same results bit for bit. Outside of it nothing is any different.
+"""
+
+from __future__ import annotations
+
+from contextlib import contextmanager
+from contextvars import ContextVar
+from functools import partial
+from typing import TYPE_CHECKING, Any, Final
+
+from engine.errors import QueryError
+from engine.tracing_recorder import Recorder
+from engine.tracing_writes import TOPICS, WriteTrace
+
+if TYPE_CHECKING:
+    from collections.abc import Callable, Collection, Iterator
+
+_RECORDER: Final[ContextVar[Recorder | None]] = ContextVar("recorder", default=None)
+
+
+class UnknownTopicError(QueryError):
+    """There is no such topic to trace; `topic` is its name."""
+
+    def __init__(self, topic: str) -> None:
+        self.topic = topic
+        super().__init__("topics", f"unknown topic {topic!r}; there are: {', '.join(TOPICS)}")
+
+
+@contextmanager
+def recording(topics: Collection[str] = TOPICS) -> Iterator[WriteTrace]:
+    """Record what transitions write that are run inside the block, in this thread.
+
+    Parameters
+    ----------
+    topics : collection of str
+        Which of `TOPICS` to record.
+
+    Yields
+    ------
+    WriteTrace
+        Grows with each query. Transitions are numbered from 1 in the order in which they begin.
+
+    Raises
+    ------
+    UnknownTopicError
+        A topic is none of `TOPICS`.
+    """
+    for topic in topics:
+        if topic not in TOPICS:
+            raise UnknownTopicError(topic)
+    recorder = Recorder(topics)
+    token = _RECORDER.set(recorder)
+    try:
+        yield recorder.trace
+    finally:
+        _RECORDER.reset(token)
+
+
+def runnable(kernel: Callable[..., Any]) -> Callable[..., Any]:
+    """Return the kernel itself or, inside `recording`, what runs it interpreted.
+
+    It is asked for where Python calls a kernel that has a row of state, once a batch.
+    """
+    recorder = _RECORDER.get()
+    return kernel if recorder is None else partial(recorder.run, kernel)
