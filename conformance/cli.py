@@ -1,4 +1,4 @@
-"""The command line: `conformance verify | export | lint | bugs | coverage | trace | trace-log`."""
+"""The command line: `conformance COMMAND`, each command a module of `conformance.commands`."""
 
 from __future__ import annotations
 
@@ -8,7 +8,7 @@ from importlib import metadata
 from typing import TYPE_CHECKING, Final
 
 from conformance import exit_codes
-from conformance.commands import bugs, coverage, export, lint, trace, trace_log, verify
+from conformance.commands import bench, bugs, coverage, errors, export, lint, trace, trace_log, verify
 from conformance.commands.options import UsageError
 from conformance.console import tolerate_unprintable
 
@@ -25,6 +25,8 @@ _COMMANDS: Final[dict[str, ModuleType]] = {
     "coverage": coverage,
     "trace": trace,
     "trace-log": trace_log,
+    "bench": bench,
+    "errors": errors,
 }
 _DESCRIPTION: Final = """\
 Is a re-implementation of Asheron's Call movement and collision the same as retail?

@@ -110,10 +110,19 @@ def _check_candidate(config: pytest.Config) -> None:
     """Refuse an unknown candidate at once; the default is loaded only when a test needs it."""
     spec = config.getoption("--candidate", DEFAULT_CANDIDATE)
     if spec != DEFAULT_CANDIDATE:
-        from conformance.candidates.registry import UnknownCandidateError, candidate_names
+        from conformance.candidates.registry import (
+            MissingExtraError,
+            UnknownCandidateError,
+            candidate_names,
+            check_extra,
+        )
 
         if spec not in candidate_names():
             raise pytest.UsageError(f"--candidate: {UnknownCandidateError(spec, candidate_names())}")
+        try:
+            check_extra(spec)
+        except MissingExtraError as error:
+            raise pytest.UsageError(f"--candidate: {error}") from error
 
 
 def _check_topics(config: pytest.Config) -> None:

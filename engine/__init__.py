@@ -44,8 +44,11 @@ from engine.landscape import Building, BuildingPortal, LandBlock
 from engine.object_call import ObjectCall, Target
 from engine.objects import Obstacle, Part, Weenie
 from engine.pose import Pose
+from engine.prepared import Prepared
 from engine.query import CollisionCall, ContactPlane, Move, Mover, PathState, Seed
 from engine.step import set_local_velocity, set_velocity, step, step_many, update_many
+from engine.trees import step_down_many, strike_many
+from engine.warm import warmup
 from engine.world import World
 
 __all__ = [
@@ -71,6 +74,7 @@ __all__ = [
     "Portal",
     "Pose",
     "PoseError",
+    "Prepared",
     "QueryError",
     "RecursionBoundError",
     "Seed",
@@ -89,6 +93,9 @@ __all__ = [
     "set_local_velocity",
     "set_velocity",
     "step",
+    "step_down_many",
     "step_many",
+    "strike_many",
     "update_many",
+    "warmup",
 ]

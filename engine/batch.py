@@ -14,6 +14,7 @@ from engine.kernels.object_calls import meet_many
 from engine.kernels.resolving import resolve_many as resolve_rows
 from engine.object_call import ObjectCall, object_rows
 from engine.query import CollisionCall, Move, collision_rows, move_rows
+from engine.threads import in_parts
 from engine.tracing import runnable
 
 if TYPE_CHECKING:
@@ -49,14 +50,14 @@ def resolve(world: World, move: Move) -> Any:
     return resolve_many(world, [move])[0]
 
 
-def resolve_many(world: World, moves: Sequence[Move] | Rows) -> Rows:
+def resolve_many(world: World, moves: Sequence[Move] | Rows, *, threads: int = 1) -> Rows:
     """Move many movers, each as if it were alone; results in the same order.
 
     `moves` are Move objects, or rows of `engine.layout.QUERY_DTYPE` made by `engine.query.move_rows`.
-    See `resolve`.
+    `threads` share them, with the same results for any number. See `resolve`.
     """
     rows = moves if isinstance(moves, np.ndarray) else move_rows(world, moves)
-    return _run(resolve_rows, world, rows)
+    return _run(resolve_rows, world, rows, threads)
 
 
 def find_collisions(world: World, call: CollisionCall) -> Any:
@@ -79,14 +80,14 @@ def find_collisions(world: World, call: CollisionCall) -> Any:
     return find_collisions_many(world, [call])[0]
 
 
-def find_collisions_many(world: World, calls: Sequence[CollisionCall] | Rows) -> Rows:
+def find_collisions_many(world: World, calls: Sequence[CollisionCall] | Rows, *, threads: int = 1) -> Rows:
     """Make many collision calls, each as if it were alone; results in the same order.
 
     `calls` are CollisionCall objects, or rows made by `engine.query.collision_rows`.
-    See `find_collisions`.
+    `threads` share them, with the same results for any number. See `find_collisions`.
     """
     rows = calls if isinstance(calls, np.ndarray) else collision_rows(world, calls)
-    return _run(collide_many, world, rows)
+    return _run(collide_many, world, rows, threads)
 
 
 def find_object_collisions(world: World, call: ObjectCall) -> Any:
@@ -109,28 +110,30 @@ def find_object_collisions(world: World, call: ObjectCall) -> Any:
     return find_object_collisions_many(world, [call])[0]
 
 
-def find_object_collisions_many(world: World, calls: Sequence[ObjectCall] | Rows) -> Rows:
+def find_object_collisions_many(
+    world: World, calls: Sequence[ObjectCall] | Rows, *, threads: int = 1
+) -> Rows:
     """Make many calls of obstacles, each as if it were alone; results in the same order.
 
     `calls` are ObjectCall objects, or rows made by `engine.object_call.object_rows`.
-    See `find_object_collisions`.
+    `threads` share them, with the same results for any number. See `find_object_collisions`.
     """
     rows = calls if isinstance(calls, np.ndarray) else object_rows(world, calls)
-    return _run(meet_many, world, rows)
+    return _run(meet_many, world, rows, threads)
 
 
-def _run(kernel: Callable[..., None], world: World, rows: Rows) -> Rows:
+def _run(kernel: Callable[..., None], world: World, rows: Rows, threads: int) -> Rows:
     if rows.dtype != at.QUERY_DTYPE:
         raise QueryError("rows", "not of engine.layout.QUERY_DTYPE")
-    queries = np.ascontiguousarray(rows)
+    queries = np.ascontiguousarray(rows).view(np.float64).reshape(len(rows), at.QUERY_SIZE)
     results = np.zeros(len(rows), dtype=at.RESULT_DTYPE)
-    runnable(kernel)(
-        world.floats,
-        world.ints,
-        world.new_row(),
-        queries.view(np.float64).reshape(len(rows), at.QUERY_SIZE),
-        results.view(np.float64).reshape(len(rows), at.RESULT_SIZE),
-    )
+    answers = results.view(np.float64).reshape(len(rows), at.RESULT_SIZE)
+    run = runnable(kernel)
+
+    def work(part: slice) -> None:
+        run(world.floats, world.ints, world.new_row(), queries[part], answers[part])
+
+    in_parts(work, len(rows), threads)
     check_status(results["status"])
     return results
 

@@ -10,7 +10,10 @@ import numpy as np
 from engine.errors import GeometryError
 from engine.float32 import float32_array
 from engine.kernels.polygon import polygon_make_plane
+from engine.kernels.polygon_record import polygon_make_edges
 from engine.layout import (
+    CORNER_SIZE,
+    EDGE_SIZE,
     KIND_LEAF,
     KIND_NODE,
     KIND_SOLID_LEAF,
@@ -19,9 +22,10 @@ from engine.layout import (
     NODE_NEGATIVE,
     NODE_POSITIVE,
     NODE_SPHERE,
+    POLYGON_CORNERS,
     POLYGON_COUNT,
     POLYGON_ID,
-    POLYGON_VERTICES,
+    VECTOR_SIZE,
 )
 
 if TYPE_CHECKING:
@@ -145,7 +149,7 @@ class Shape:
 
 def _flatten_polygons(points: Array, polygons: Sequence[Sequence[int]], name: str) -> tuple[Ints, Array]:
     """Lay polygon records behind each other, with their planes; return their offsets and the floats."""
-    sizes = [POLYGON_VERTICES + 3 * len(polygon) for polygon in polygons]
+    sizes = [POLYGON_CORNERS + (CORNER_SIZE + EDGE_SIZE) * len(polygon) for polygon in polygons]
     offsets = np.concatenate(([0], np.cumsum(sizes, dtype=np.int64)))
     floats = np.zeros(offsets[-1], dtype=np.float64)
     for index, polygon in enumerate(polygons):
@@ -157,8 +161,10 @@ def _flatten_polygons(points: Array, polygons: Sequence[Sequence[int]], name: st
                 )
         floats[at + POLYGON_COUNT] = len(polygon)
         floats[at + POLYGON_ID] = index
-        floats[at + POLYGON_VERTICES : at + sizes[index]] = points[list(polygon)].ravel()
+        corners = floats[at + POLYGON_CORNERS :][: CORNER_SIZE * len(polygon)].reshape(-1, CORNER_SIZE)
+        corners[:, :VECTOR_SIZE] = points[list(polygon)]
         polygon_make_plane(floats, at)
+        polygon_make_edges(floats, at)
     return offsets[:-1].astype(np.int64), floats
 
 

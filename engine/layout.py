@@ -300,8 +300,17 @@ NO_TREE: Final = frozen(0)
 POLYGON_COUNT: Final = frozen(4)
 POLYGON_ID: Final = frozen(5)
 POLYGON_SHAPE: Final = frozen(6)
-POLYGON_VERTICES: Final = frozen(8)
-"""A polygon record: plane, number of vertices, its id, its shape's index, pad, vertices x y z."""
+POLYGON_CORNERS: Final = frozen(8)
+"""A polygon record: plane, number of vertices, its id, its shape's index, pad, corners, edges."""
+CORNER_SIZE: Final = frozen(6)
+"""A vertex x y z, and the in-plane normal of the edge from it to the next one, as PP-2 rounds it."""
+CORNER_NORMAL: Final = frozen(3)
+EDGE_SIZE: Final = frozen(8)
+"""Behind the corners, of the edge from each vertex to the next, what PH-4 computes without the sphere:
+the edge x y z, its in-plane normal x y z, and the squared lengths of the normal and of the edge."""
+EDGE_NORMAL: Final = frozen(3)
+EDGE_NORMAL_SQUARED: Final = frozen(6)
+EDGE_SQUARED: Final = frozen(7)
 
 _header = Row()
 
@@ -360,7 +369,7 @@ NO_PORTALS: Final = frozen(-1)
 """Portal count of a cell without a portal array, which contains no point (09, 4.1)."""
 NO_BUILDING: Final = frozen(-1)
 
-TERRAIN_POLYGON: Final = POLYGON_VERTICES + 9
+TERRAIN_POLYGON: Final = POLYGON_CORNERS + 3 * (CORNER_SIZE + EDGE_SIZE)
 """Size of a triangle's record."""
 LAND_CELLS: Final = frozen(64)
 """Land cells of a block; cell 8 * i + j lies in column i from the west, row j from the south."""

@@ -15,6 +15,7 @@ from engine.errors import QueryError
 from engine.float32 import float32_array
 from engine.kernels import tick, tick_gates, tick_velocity
 from engine.layout import VECTOR_SIZE
+from engine.threads import in_parts
 from engine.tracing import runnable
 
 if TYPE_CHECKING:
@@ -63,9 +64,10 @@ def step(world: World, body: Any, dt: float) -> Any:
     return step_many(world, rows, dt, 1)[0]
 
 
-def step_many(world: World, rows: Rows, dt: float, ticks: int) -> Rows:
+def step_many(world: World, rows: Rows, dt: float, ticks: int, *, threads: int = 1) -> Rows:
     """Let ticks pass for many bodies, each as if it were alone; the rows are changed, and returned.
 
+    `threads` share the bodies, with the same results for any number.
     If a body's tick fails, its row is left in the middle of that tick, with the reason in ``status``;
     the other bodies have done all of their ticks when the error is raised. See `step`.
     """
@@ -73,12 +75,17 @@ def step_many(world: World, rows: Rows, dt: float, ticks: int) -> Rows:
     if not quantum > 0.0:
         raise QueryError("dt", f"{dt} seconds is not greater than 0")
     numbers = _ready(rows)
-    runnable(tick.step_many)(world.floats, world.ints, world.new_row(), numbers, quantum, ticks)
+    run = runnable(tick.step_many)
+
+    def work(part: slice) -> None:
+        run(world.floats, world.ints, world.new_row(), numbers[part], quantum, ticks)
+
+    in_parts(work, len(rows), threads)
     check_status(rows["status"])
     return rows
 
 
-def update_many(world: World, rows: Rows, now: float) -> Rows:
+def update_many(world: World, rows: Rows, now: float, *, threads: int = 1) -> Rows:
     """Let time pass up to `now` for many bodies, in ticks as long as retail's; the rows are changed.
 
     The time since a body's ``update_time`` is divided into ticks of 0.2 seconds and a remainder, which
@@ -90,6 +97,8 @@ def update_many(world: World, rows: Rows, now: float) -> Rows:
     rows : records of `engine.body_layout.BODY_DTYPE`
     now : float
         Seconds, on the clock of ``update_time``; not rounded to float32.
+    threads : int
+        How many share the bodies; the results are the same for any number.
 
     Notes
     -----
@@ -98,9 +107,13 @@ def update_many(world: World, rows: Rows, now: float) -> Rows:
     if not math.isfinite(now):
         raise QueryError("now", f"{now} is not a time")
     numbers = _ready(rows)
-    quanta, times = np.zeros((2, int(tick_gates.MAX_TICKS)), dtype=np.float64)
     update = runnable(tick_gates.update_many)
-    update(world.floats, world.ints, world.new_row(), numbers, float(now), quanta, times)
+
+    def work(part: slice) -> None:
+        quanta, times = np.zeros((2, int(tick_gates.MAX_TICKS)), dtype=np.float64)
+        update(world.floats, world.ints, world.new_row(), numbers[part], float(now), quanta, times)
+
+    in_parts(work, len(rows), threads)
     check_status(rows["status"])
     return rows
 

@@ -59,6 +59,11 @@ def recording(topics: Collection[str] = TOPICS) -> Iterator[WriteTrace]:
         _RECORDER.reset(token)
 
 
+def is_recording() -> bool:
+    """Say whether this thread is inside `recording`."""
+    return _RECORDER.get() is not None
+
+
 def runnable(kernel: Callable[..., Any]) -> Callable[..., Any]:
     """Return the kernel itself or, inside `recording`, what runs it interpreted.
 

@@ -6,8 +6,9 @@ ordinary arithmetic and calls `f32` at each store.
 
 The port also runs on other number types. Such a type carries its own arithmetic, mixed with floats
 too, and says with ``stored()`` and ``sqrt()`` what a store and a square root mean in its model, with
-``divided_by(divisor)`` and ``dividing(float)`` what a division does whose divisor may be zero, and
-with ``is_nan()``, ``sin()``, ``atan2(x)`` … the rest of the functions below.
+``divided_by(divisor)`` and ``dividing(float)`` what a division does whose divisor may be zero, with
+``power(exponent)`` and ``raising(float)`` what a power is, and with ``is_nan()``, ``sin()``, ``atan2(x)`` …
+the rest of the functions below.
 """
 
 from __future__ import annotations
@@ -134,5 +135,8 @@ def power(x: float, y: float) -> float:
     """Return `x` to the power of `y`, a time that is not negative, in a register; NaN where C gives NaN."""
     if x.__class__ is float and y.__class__ is float:
         return math.nan if x < 0.0 and not y.is_integer() else math.pow(x, y)
+    if x.__class__ is float:
+        raised: float = y.raising(x)  # type: ignore[attr-defined]
+        return raised
     value: float = x.power(y)  # type: ignore[attr-defined]
     return value

@@ -3,22 +3,18 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, field
-from typing import TYPE_CHECKING, Any, Final
-from weakref import WeakKeyDictionary
+from typing import TYPE_CHECKING, Final
 
-from conformance.candidates.kept_worlds import KeptWorlds
 from conformance.candidates.oracle_candidate import OracleCandidate
-from conformance.candidates.oracle_ops import geometry, world
-from conformance.candidates.replacements import Method, replaced
+from conformance.candidates.own_caches import own_caches
+from conformance.candidates.replacements import replaced
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Collection, Mapping
+    from collections.abc import Collection
     from contextlib import AbstractContextManager
 
     from conformance.candidates.replacements import Replacement
     from conformance.query import Outcome, Query
-    from conformance.scenes.model import Geometry
-    from oracle.world import World
     from oracle.writes import WriteTrace
 
 BUG_PREFIX: Final = "bug:"
@@ -59,11 +55,6 @@ class KnownBug:
     rated: bool = False
 
 
-def _build_world(record: Mapping[str, Any], geometries: Mapping[str, Geometry]) -> World:
-    """Make a world with what stands for the oracle's builder now."""
-    return world.build_world(record, geometries)
-
-
 class BugCandidate:
     """The oracle with one mistake.
 
@@ -73,10 +64,7 @@ class BugCandidate:
     def __init__(self, bug: KnownBug) -> None:
         self.bug = bug
         self._oracle = OracleCandidate()
-        self._own = (
-            Method(geometry, "CACHE", _always(WeakKeyDictionary())),
-            Method(world, "CACHE", _always(KeptWorlds(_build_world))),
-        )
+        self._own = own_caches()
 
     def __repr__(self) -> str:
         return f"BugCandidate({self.bug.id!r}: {self.bug.mistake})"
@@ -94,7 +82,3 @@ class BugCandidate:
     def recording(self, topics: Collection[str]) -> AbstractContextManager[WriteTrace]:
         """Record what every transition that is made in the block writes."""
         return self._oracle.recording(topics)
-
-
-def _always(value: Any) -> Callable[[Any], Any]:
-    return lambda _retail: value

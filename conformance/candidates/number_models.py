@@ -6,7 +6,7 @@ A type carries its own arithmetic, as `oracle.arithmetic` describes.
 from __future__ import annotations
 
 import math
-from typing import TYPE_CHECKING, Any, TypeAlias
+from typing import TYPE_CHECKING, Any, Self, TypeAlias
 
 from oracle import arithmetic
 from oracle.arithmetic import f32
@@ -14,100 +14,105 @@ from oracle.arithmetic import f32
 if TYPE_CHECKING:
     from conformance.query import Fields
 
-Number: TypeAlias = "Single | float"
-"""What mixes with a `Single`: a plain number is rounded first, as a literal is."""
+Number: TypeAlias = "Register | float"
+"""What mixes with a `Register`: a plain number is rounded first, as a literal is."""
 
 
-class Single:
-    """A number that is float32 also in registers: every operation rounds.
-
-    A sum, product, quotient or root of two float32s that is rounded to double first and then to float32
-    is the float32 result, so nothing here is rounded differently than by float32 hardware.
-    """
+class Register:
+    """A number with one precision, in registers and in memory alike; `rounded` is its subclasses'."""
 
     __slots__ = ("value",)
 
     def __init__(self, x: Number) -> None:
-        self.value = f32(_raw(x))
+        self.value = self.rounded(_raw(x))
 
     def __repr__(self) -> str:
-        return f"Single({self.value!r})"
+        return f"{type(self).__name__}({self.value!r})"
 
-    def stored(self) -> Single:
+    @staticmethod
+    def rounded(x: float) -> float:
+        """Round the result of an operation."""
+        raise NotImplementedError
+
+    def stored(self) -> Self:
         """Store to memory: nothing is left to round."""
         return self
 
-    def sqrt(self) -> Single:
+    def sqrt(self) -> Self:
         """Return the square root."""
-        return Single(arithmetic.sqrt(self.value))
+        return type(self)(arithmetic.sqrt(self.value))
 
-    def divided_by(self, other: Number) -> Single:
+    def divided_by(self, other: Number) -> Self:
         """Divide by a number that may be zero."""
-        return Single(arithmetic.divide(self.value, f32(_raw(other))))
+        return type(self)(arithmetic.divide(self.value, self._other(other)))
 
-    def dividing(self, other: float) -> Single:
+    def dividing(self, other: float) -> Self:
         """Divide a number by this, which may be zero."""
-        return Single(arithmetic.divide(f32(other), self.value))
+        return type(self)(arithmetic.divide(self.rounded(other), self.value))
 
     def is_nan(self) -> bool:
         """Tell whether this is not a number."""
         return math.isnan(self.value)
 
-    def sin(self) -> Single:
+    def sin(self) -> Self:
         """Return the sine of an angle in radians."""
-        return Single(math.sin(self.value))
+        return type(self)(math.sin(self.value))
 
-    def cos(self) -> Single:
+    def cos(self) -> Self:
         """Return the cosine of an angle in radians."""
-        return Single(math.cos(self.value))
+        return type(self)(math.cos(self.value))
 
-    def asin(self) -> Single:
+    def asin(self) -> Self:
         """Return the arc sine in radians."""
-        return Single(math.asin(self.value))
+        return type(self)(math.asin(self.value))
 
-    def acos(self) -> Single:
+    def acos(self) -> Self:
         """Return the arc cosine in radians."""
-        return Single(math.acos(self.value))
+        return type(self)(math.acos(self.value))
 
-    def atan2(self, x: Number) -> Single:
+    def atan2(self, x: Number) -> Self:
         """Return the angle of the point (x, self) in radians."""
-        return Single(math.atan2(self.value, f32(_raw(x))))
+        return type(self)(math.atan2(self.value, self._other(x)))
 
-    def fmod(self, b: Number) -> Single:
+    def fmod(self, b: Number) -> Self:
         """Return the remainder of a division, with the sign of this."""
-        return Single(math.fmod(self.value, f32(_raw(b))))
+        return type(self)(math.fmod(self.value, self._other(b)))
 
-    def power(self, y: Number) -> Single:
+    def power(self, y: Number) -> Self:
         """Return this to the power of a time that is not negative."""
-        return Single(arithmetic.power(self.value, f32(_raw(y))))
+        return type(self)(arithmetic.power(self.value, self._other(y)))
 
-    def __add__(self, other: Number) -> Single:
-        return Single(self.value + f32(_raw(other)))
+    def raising(self, x: float) -> Self:
+        """Return a number to the power of this, a time that is not negative."""
+        return type(self)(x).power(self)
+
+    def __add__(self, other: Number) -> Self:
+        return type(self)(self.value + self._other(other))
 
     __radd__ = __add__
 
-    def __sub__(self, other: Number) -> Single:
-        return Single(self.value - f32(_raw(other)))
+    def __sub__(self, other: Number) -> Self:
+        return type(self)(self.value - self._other(other))
 
-    def __rsub__(self, other: float) -> Single:
-        return Single(f32(other) - self.value)
+    def __rsub__(self, other: float) -> Self:
+        return type(self)(self.rounded(other) - self.value)
 
-    def __mul__(self, other: Number) -> Single:
-        return Single(self.value * f32(_raw(other)))
+    def __mul__(self, other: Number) -> Self:
+        return type(self)(self.value * self._other(other))
 
     __rmul__ = __mul__
 
-    def __truediv__(self, other: Number) -> Single:
-        return Single(self.value / f32(_raw(other)))
+    def __truediv__(self, other: Number) -> Self:
+        return type(self)(self.value / self._other(other))
 
-    def __rtruediv__(self, other: float) -> Single:
-        return Single(f32(other) / self.value)
+    def __rtruediv__(self, other: float) -> Self:
+        return type(self)(self.rounded(other) / self.value)
 
-    def __neg__(self) -> Single:
-        return Single(-self.value)
+    def __neg__(self) -> Self:
+        return type(self)(-self.value)
 
-    def __abs__(self) -> Single:
-        return Single(abs(self.value))
+    def __abs__(self) -> Self:
+        return type(self)(abs(self.value))
 
     def __floor__(self) -> int:
         return math.floor(self.value)
@@ -116,31 +121,60 @@ class Single:
         return math.ceil(self.value)
 
     def __lt__(self, other: Number) -> bool:
-        return self.value < f32(_raw(other))
+        return self.value < self._other(other)
 
     def __le__(self, other: Number) -> bool:
-        return self.value <= f32(_raw(other))
+        return self.value <= self._other(other)
 
     def __gt__(self, other: Number) -> bool:
-        return self.value > f32(_raw(other))
+        return self.value > self._other(other)
 
     def __ge__(self, other: Number) -> bool:
-        return self.value >= f32(_raw(other))
+        return self.value >= self._other(other)
 
     def __eq__(self, other: object) -> bool:
-        return isinstance(other, Single | float | int) and self.value == f32(_raw(other))
+        return isinstance(other, Register | float | int) and self.value == self._other(other)
 
     def __hash__(self) -> int:
         return hash(self.value)
 
+    def _other(self, other: Number) -> float:
+        return other.value if other.__class__ is self.__class__ else self.rounded(_raw(other))
+
+
+class Single(Register):
+    """A number that is float32 also in registers: every operation rounds.
+
+    A sum, product, quotient or root of two float32s that is rounded to double first and then to float32
+    is the float32 result, so nothing here is rounded differently than by float32 hardware.
+    """
+
+    __slots__ = ()
+
+    @staticmethod
+    def rounded(x: float) -> float:
+        """Round to float32."""
+        return f32(x)
+
+
+class Double(Register):
+    """A number that is a double also in memory: no store rounds to float32."""
+
+    __slots__ = ()
+
+    @staticmethod
+    def rounded(x: float) -> float:
+        """Keep the double that it is."""
+        return float(x)
+
 
 def plain(fields: Fields) -> Fields:
-    """Return an answer with every `Single` as a Python float."""
+    """Return an answer with every `Register` as a Python float."""
     return {name: _plain(value) for name, value in fields.items()}
 
 
 def _plain(value: Any) -> Any:
-    if isinstance(value, Single):
+    if isinstance(value, Register):
         return value.value
     if isinstance(value, dict):
         return plain(value)
@@ -150,4 +184,4 @@ def _plain(value: Any) -> Any:
 
 
 def _raw(x: Number) -> float:
-    return x.value if isinstance(x, Single) else x
+    return x.value if isinstance(x, Register) else x

@@ -20,15 +20,16 @@ def add_candidate_option(parser: argparse.ArgumentParser, *, default: str) -> No
         "--candidate",
         default=default,
         metavar="SPEC",
-        help="oracle, engine or bug:NAME (default: %(default)s; `conformance bugs` lists the bugs)",
+        help="oracle, engine, single, double, exact or bug:NAME "
+        "(default: %(default)s; `conformance bugs` lists the bugs)",
     )
 
 
 def candidate_from(args: argparse.Namespace) -> Candidate:
-    """Make the candidate that ``--candidate`` names; raises `UsageError` for an unknown one."""
-    from conformance.candidates.registry import UnknownCandidateError, make_candidate
+    """Make the candidate that ``--candidate`` names; raises `UsageError` if it cannot be made."""
+    from conformance.candidates.registry import MissingExtraError, UnknownCandidateError, make_candidate
 
     try:
         return make_candidate(args.candidate)
-    except UnknownCandidateError as error:
+    except (UnknownCandidateError, MissingExtraError) as error:
         raise UsageError(str(error)) from error

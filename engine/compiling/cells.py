@@ -202,9 +202,9 @@ def _portal_ints(storage: Storage, numbers: CellNumbers, given: Portal | int, wh
 def _plane(polygon: Sequence[Sequence[float]], where: str) -> Array:
     """Return the plane of a portal's polygon, in the cell's frame."""
     corners = float32_array(polygon, (-1, 3), f"{where}, polygon", WorldError)
-    record = np.zeros(at.POLYGON_VERTICES + corners.size, dtype=np.float64)
+    record = np.zeros(at.POLYGON_CORNERS + at.CORNER_SIZE * len(corners), dtype=np.float64)
     record[at.POLYGON_COUNT] = len(corners)
-    record[at.POLYGON_VERTICES :] = corners.ravel()
+    record[at.POLYGON_CORNERS :].reshape(-1, at.CORNER_SIZE)[:, : at.VECTOR_SIZE] = corners
     polygon_make_plane(record, 0)
     if not np.isfinite(record[: at.PLANE_SIZE]).all():
         raise WorldError(f"{where}, polygon", "has no area, and so no plane")

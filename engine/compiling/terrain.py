@@ -113,12 +113,14 @@ def triangles(block: int, heights: Sequence[float] | Array) -> Array:
     vertices[:, 0] = np.repeat(np.arange(VERTICES) * BLOCK_STEP, VERTICES)
     vertices[:, 1] = np.tile(np.arange(VERTICES) * BLOCK_STEP, VERTICES)
     vertices[:, 2] = heights
-    corners = np.where(split_cuts(block)[..., None], _SW_NE_CUT, _NW_SE_CUT)
+    corners = np.where(split_cuts(block)[..., None], _SW_NE_CUT, _NW_SE_CUT).reshape(SIDE, SIDE, 2, 3)
     records = np.zeros((SIDE, SIDE, 2, at.TERRAIN_POLYGON), dtype=np.float64)
     records[..., at.POLYGON_COUNT] = 3.0
     records[..., at.POLYGON_ID] = (0.0, 1.0)
     records[..., at.POLYGON_SHAPE] = -1.0
-    records[..., at.POLYGON_VERTICES :] = vertices[corners].reshape(SIDE, SIDE, 2, 9)
+    for k in range(3):
+        place = at.POLYGON_CORNERS + at.CORNER_SIZE * k
+        records[..., place : place + at.VECTOR_SIZE] = vertices[corners[..., k]]
     make_planes(records.ravel(), 0, int(at.TERRAIN_POLYGON), 2 * SIDE * SIDE)
     return records
 

@@ -12,7 +12,7 @@ from engine.constants import (
 from engine.kernels.bsp_poly import sphere_intersects_solid
 from engine.kernels.bsp_walkable import find_walkable, hits_walkable
 from engine.kernels.collision_info import set_contact_plane
-from engine.kernels.compile import inlined, kernel, pasted
+from engine.kernels.compile import inlined, kernel
 from engine.kernels.frame import rotate_x_last
 from engine.kernels.path import add_offset_to_check_pos, set_walkable
 from engine.kernels.plane import plane_localtoglobal
@@ -55,7 +55,7 @@ def _touches_solid(wf: Array, wi: Ints, s: Array, root: int, at: int, flag: int)
     return sphere_intersects_solid(wf, wi, s, root, x, y, z, s[at + RADIUS], flag)
 
 
-@pasted
+@kernel
 def find_room(wf: Array, wi: Ints, s: Array, root: int) -> int:
     """Path 1: no sphere may touch solid matter.
 
@@ -69,7 +69,7 @@ def find_room(wf: Array, wi: Ints, s: Array, root: int) -> int:
     return OK
 
 
-@pasted
+@kernel
 def find_support(wf: Array, wi: Ints, s: Array, root: int) -> int:
     """Path 2: COLLIDED says that something supports sphere 0.
 
@@ -106,7 +106,7 @@ def _step_movement(s: Array, scale: float) -> Vector:
     return f32(inv * ax), f32(ay * inv32), f32(az * inv32)
 
 
-@pasted
+@kernel
 def step_sphere_down(wf: Array, wi: Ints, s: Array, root: int, scale: float) -> int:
     """Path 3: put sphere 0 on what is walkable within the step.
 
@@ -137,7 +137,7 @@ def move_scaled(s: Array, vx: float, vy: float, vz: float, scale: float) -> None
     add_offset_to_check_pos(s, f32(gx * scale), f32(gy * scale), f32(gz * scale))
 
 
-@pasted
+@kernel
 def find_landing(
     wf: Array, wi: Ints, s: Array, root: int, scale: float, mx: float, my: float, mz: float
 ) -> int:

@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING
 
 from engine.constants import EPS
 from engine.kernels.compile import inlined
+from engine.kernels.indexing import unsigned
 from engine.kernels.polygon import plane_distance
 from engine.layout import (
     KIND_NODE,
@@ -20,7 +21,6 @@ from engine.layout import (
     NODE_INTS,
     NODE_KIND,
     NODE_NEGATIVE,
-    NODE_POSITIVE,
     NODE_SPHERE,
 )
 
@@ -51,7 +51,7 @@ def in_bounds(wf: Array, node: int, x: float, y: float, z: float, r: float) -> b
 
     retail: BN-1
     """
-    b = NODE_FLOATS * node + NODE_SPHERE
+    b = unsigned(NODE_FLOATS * node + NODE_SPHERE)
     return spheres_intersect(wf[b], wf[b + 1], wf[b + 2], wf[b + 3], x, y, z, r)
 
 
@@ -80,31 +80,31 @@ def side_of(dist: float, reach: float) -> int:
 @inlined
 def is_leaf(wi: Ints, node: int) -> bool:
     """Say whether a tree ends here."""
-    return wi[NODE_INTS * node + NODE_KIND] != KIND_NODE
+    return wi[unsigned(NODE_INTS * node + NODE_KIND)] != KIND_NODE
 
 
 @inlined
 def is_solid(wi: Ints, leaf: int) -> bool:
     """Say whether a leaf is flagged as solid."""
-    return wi[NODE_INTS * leaf + NODE_KIND] == KIND_SOLID_LEAF
+    return wi[unsigned(NODE_INTS * leaf + NODE_KIND)] == KIND_SOLID_LEAF
 
 
 @inlined
-def positive(wi: Ints, node: int) -> int:
-    """Return the child in front of the splitting plane."""
-    return wi[NODE_INTS * node + NODE_POSITIVE]
+def positive(node: int) -> int:
+    """Return the child in front of the splitting plane: nodes lie in traversal order."""
+    return node + 1
 
 
 @inlined
 def negative(wi: Ints, node: int) -> int:
     """Return the child behind the splitting plane."""
-    return wi[NODE_INTS * node + NODE_NEGATIVE]
+    return wi[unsigned(NODE_INTS * node + NODE_NEGATIVE)]
 
 
 @inlined
 def leaf_polygons(wi: Ints, leaf: int) -> tuple[int, int]:
     """Return where a leaf's list of polygons begins, and its length."""
-    at = NODE_INTS * leaf
+    at = unsigned(NODE_INTS * leaf)
     return wi[at + LEAF_FIRST], wi[at + LEAF_COUNT]
 
 
@@ -122,6 +122,6 @@ def descend(
     if side == NEGATIVE_SIDE:
         return negative(wi, node), top
     if side == BOTH_SIDES:
-        s[top] = negative(wi, node)
-        return positive(wi, node), top + 1
-    return positive(wi, node), top
+        s[unsigned(top)] = negative(wi, node)
+        return positive(node), top + 1
+    return positive(node), top

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 from engine.constants import ADJUSTED, COLLIDED, OK, PLACEMENT_TRIES
 from engine.kernels.bsp_ground import center_check_flag
 from engine.kernels.bsp_poly import sphere_intersects_solid_poly
-from engine.kernels.compile import entry, inlined, pasted
+from engine.kernels.compile import entry, inlined, kernel
 from engine.kernels.path import add_offset_to_check_pos
 from engine.kernels.polygon_adjust import polygon_placement_push
 from engine.kernels.position import position_localtoglobalvec
@@ -49,7 +49,7 @@ def pushed(x: float, y: float, z: float, ox: float, oy: float, oz: float) -> Vec
     return f32(ox + x), f32(oy + y), f32(oz + z)
 
 
-@pasted
+@kernel
 def _placement_insert(wf: Array, wi: Ints, s: Array, root: int) -> int:
     """Push one sphere, then the other, at most `PLACEMENT_TRIES` times.
 

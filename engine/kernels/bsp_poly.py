@@ -18,7 +18,8 @@ from engine.kernels.bsp_node import (
     side_of,
     splitting_distance,
 )
-from engine.kernels.compile import entry, kernel
+from engine.kernels.compile import entry, inlined, kernel
+from engine.kernels.indexing import unsigned
 from engine.kernels.polygon import polygon_hits_sphere_slow_but_sure, polygon_moved_along
 from engine.kernels.polygon_edges import HIT, MISS
 from engine.kernels.vector import store
@@ -28,7 +29,7 @@ if TYPE_CHECKING:
     from engine.kernels.types import Array, Ints
 
 
-@kernel
+@inlined
 def _leaf_strikes(
     wf: Array,
     wi: Ints,
@@ -52,17 +53,19 @@ def _leaf_strikes(
     first, count = leaf_polygons(wi, leaf)
     if count == 0 or not in_bounds(wf, leaf, x, y, z, r):
         return False, poly
-    for i in range(first, first + count):
-        p = wi[i]
-        s[POLYGONS_TESTED] += 1
+    struck = False
+    tested = 0
+    while tested < count and not struck:
+        p = wi[unsigned(first + tested)]
+        tested += 1
         code, qx, qy, qz = polygon_hits_sphere_slow_but_sure(wf, p, x, y, z, r)
         if code >= MISS:
             store(s, CONTACT_POINT, qx, qy, qz)
         if code == HIT:
             poly = p
-            if not polygon_moved_along(wf, p, mx, my, mz):
-                return True, poly
-    return False, poly
+            struck = not polygon_moved_along(wf, p, mx, my, mz)
+    s[POLYGONS_TESTED] += tested
+    return struck, poly
 
 
 @entry
@@ -90,19 +93,23 @@ def sphere_intersects_poly(
     top = base
     node = root
     reach = r - EPS
+    nodes = 0
+    struck = False
     while True:
-        s[NODES_VISITED] += 1
+        nodes += 1
         if is_leaf(wi, node):
             struck, poly = _leaf_strikes(wf, wi, s, node, x, y, z, r, mx, my, mz, poly)
             if struck:
-                return True, poly
+                break
         elif in_bounds(wf, node, x, y, z, r):
             node, top = descend(wf, wi, s, node, x, y, z, reach, top)
             continue
         if top == base:
-            return False, poly
+            break
         top -= 1
-        node = int(s[top])
+        node = int(s[unsigned(top)])
+    s[NODES_VISITED] += nodes
+    return struck, poly
 
 
 @kernel
@@ -115,10 +122,11 @@ def _leaf_overlap(wf: Array, wi: Ints, s: Array, leaf: int, x: float, y: float, 
         return NO_POLYGON
     first, count = leaf_polygons(wi, leaf)
     for i in range(first, first + count):
+        p = wi[unsigned(i)]
         s[POLYGONS_TESTED] += 1
-        code, _, _, _ = polygon_hits_sphere_slow_but_sure(wf, wi[i], x, y, z, r)
+        code, _, _, _ = polygon_hits_sphere_slow_but_sure(wf, p, x, y, z, r)
         if code == HIT:
-            return wi[i]
+            return p
     return NO_POLYGON
 
 
@@ -152,19 +160,19 @@ def sphere_intersects_solid(
             side = side_of(dist, reach)
             if side == BOTH_SIDES:
                 in_front = not dist < 0.0
-                s[top] = 2 * negative(wi, node) + (0 if in_front else check)
+                s[unsigned(top)] = 2 * negative(wi, node) + (0 if in_front else check)
                 top += 1
-                node = positive(wi, node)
+                node = positive(node)
                 check = check if in_front else 0
             elif side == POSITIVE_SIDE:
-                node = positive(wi, node)
+                node = positive(node)
             else:
                 node = negative(wi, node)
             continue
         if top == base:
             return False
         top -= 1
-        packed = int(s[top])
+        packed = int(s[unsigned(top)])
         node = packed >> 1
         check = packed & 1
 
@@ -214,16 +222,16 @@ def sphere_intersects_solid_poly(
             side = side_of(dist, reach)
             behind = dist < 0.0 if side == BOTH_SIDES else side != POSITIVE_SIDE
             if side == BOTH_SIDES:
-                s[top] = positive(wi, node) if behind else negative(wi, node)
+                s[unsigned(top)] = positive(node) if behind else negative(wi, node)
                 top += 1
-            node = negative(wi, node) if behind else positive(wi, node)
+            node = negative(wi, node) if behind else positive(node)
             continue
         if top == base:
             return answer, center_solid, poly
         if poly != NO_POLYGON:
             return center_solid, center_solid, poly
         top -= 1
-        node = int(s[top])
+        node = int(s[unsigned(top)])
         check = 0
 
 
@@ -236,6 +244,6 @@ def point_intersects_solid(wf: Array, wi: Ints, root: int, x: float, y: float, z
     node = root
     while not is_leaf(wi, node):
         behind = splitting_distance(wf, node, x, y, z) < 0.0
-        node = negative(wi, node) if behind else positive(wi, node)
+        node = negative(wi, node) if behind else positive(node)
     _, count = leaf_polygons(wi, node)
     return count != 0

@@ -16,7 +16,7 @@ from engine.kernels.bsp_ground import move_scaled
 from engine.kernels.bsp_poly import sphere_intersects_poly
 from engine.kernels.bsp_search import adjust_to_plane
 from engine.kernels.collision_info import set_collision_normal
-from engine.kernels.compile import inlined, pasted
+from engine.kernels.compile import inlined, kernel
 from engine.kernels.frame import frame_localtoglobalvec
 from engine.kernels.path import set_collide, set_neg_poly_hit
 from engine.kernels.position import position_localtoglobalvec
@@ -68,7 +68,7 @@ def _response_normal(wf: Array, s: Array, poly: int) -> Vector:
     return frame_localtoglobalvec(s, LOCALSPACE_POS, wf[poly], wf[poly + 1], wf[poly + 2])
 
 
-@pasted
+@kernel
 def collide_in_contact(wf: Array, wi: Ints, s: Array, root: int, mx: float, my: float, mz: float) -> int:
     """Path 5: step up on what sphere 0 strikes, slide along what sphere 1 strikes.
 
@@ -95,7 +95,7 @@ def collide_in_contact(wf: Array, wi: Ints, s: Array, root: int, mx: float, my: 
     return OK
 
 
-@pasted
+@kernel
 def collide_in_air(wf: Array, wi: Ints, s: Array, root: int, mx: float, my: float, mz: float) -> int:
     """Path 6a: try to land on what sphere 0 touches, stop at what sphere 1 touches.
 
@@ -116,7 +116,7 @@ def collide_in_air(wf: Array, wi: Ints, s: Array, root: int, mx: float, my: floa
     return OK
 
 
-@pasted
+@kernel
 def collide_clipped(
     wf: Array, wi: Ints, s: Array, root: int, scale: float, mx: float, my: float, mz: float
 ) -> int:

@@ -17,7 +17,7 @@ from engine.constants import (
 )
 from engine.kernels.bsp_ground import find_landing, find_room, find_support, step_sphere_down
 from engine.kernels.bsp_struck import collide_clipped, collide_in_air, collide_in_contact
-from engine.kernels.compile import entry, pasted
+from engine.kernels.compile import entry, kernel
 from engine.kernels.rounding import f32
 from engine.kernels.trace import (
     AIRBORNE_CALL,
@@ -80,7 +80,7 @@ def find_collisions(wf: Array, wi: Ints, s: Array, root: int, scale: float) -> i
     return ts
 
 
-@pasted
+@kernel
 def _take_path(wf: Array, wi: Ints, s: Array, root: int, scale: float, path: int) -> int:
     """Take one of the six paths.
 

@@ -6,7 +6,8 @@ from typing import TYPE_CHECKING
 
 from engine.constants import EPS
 from engine.kernels.bsp_node import descend, in_bounds, is_leaf, leaf_polygons
-from engine.kernels.compile import entry, kernel
+from engine.kernels.compile import entry, inlined
+from engine.kernels.indexing import unsigned
 from engine.kernels.polygon import polygon_walkable_hits_sphere
 from engine.kernels.polygon_adjust import polygon_adjust_sphere_to_plane
 from engine.kernels.polygon_support import polygon_check_small_walkable
@@ -23,7 +24,7 @@ if TYPE_CHECKING:
     from engine.kernels.types import Array, Ints
 
 
-@kernel
+@inlined
 def _leaf_find_walkable(
     wf: Array,
     wi: Ints,
@@ -48,16 +49,17 @@ def _leaf_find_walkable(
     first, count = leaf_polygons(wi, leaf)
     if count == 0 or not in_bounds(wf, leaf, x, y, z, r):
         return poly, x, y, z
+    allowance = s[WALKABLE_ALLOWANCE]
     for i in range(first, first + count):
-        p = wi[i]
-        s[POLYGONS_TESTED] += 1
-        if polygon_walkable_hits_sphere(wf, p, x, y, z, r, ux, uy, uz, s[WALKABLE_ALLOWANCE]):
+        p = wi[unsigned(i)]
+        if polygon_walkable_hits_sphere(wf, p, x, y, z, r, ux, uy, uz, allowance):
             moved, x, y, z, interp = polygon_adjust_sphere_to_plane(
                 wf, p, r, x, y, z, mx, my, mz, s[WALK_INTERP]
             )
             if moved:
                 s[WALK_INTERP] = interp
                 poly = p
+    s[POLYGONS_TESTED] += count
     return poly, x, y, z
 
 
@@ -90,20 +92,23 @@ def find_walkable(
     node = root
     reach = r - EPS
     poly = NO_POLYGON
+    nodes = 0
     while True:
-        s[NODES_VISITED] += 1
+        nodes += 1
         if is_leaf(wi, node):
             poly, x, y, z = _leaf_find_walkable(wf, wi, s, node, x, y, z, r, mx, my, mz, ux, uy, uz, poly)
         elif in_bounds(wf, node, x, y, z, r):
             node, top = descend(wf, wi, s, node, x, y, z, reach, top)
             continue
         if top == base:
-            return poly, x, y, z
+            break
         top -= 1
-        node = int(s[top])
+        node = int(s[unsigned(top)])
+    s[NODES_VISITED] += nodes
+    return poly, x, y, z
 
 
-@kernel
+@inlined
 def _leaf_hits_walkable(
     wf: Array,
     wi: Ints,
@@ -124,11 +129,12 @@ def _leaf_hits_walkable(
     first, count = leaf_polygons(wi, leaf)
     if count == 0 or not in_bounds(wf, leaf, x, y, z, r):
         return False
+    allowance = s[WALKABLE_ALLOWANCE]
     for i in range(first, first + count):
-        p = wi[i]
+        p = wi[unsigned(i)]
         s[POLYGONS_TESTED] += 1
         if polygon_walkable_hits_sphere(
-            wf, p, x, y, z, r, ux, uy, uz, s[WALKABLE_ALLOWANCE]
+            wf, p, x, y, z, r, ux, uy, uz, allowance
         ) and polygon_check_small_walkable(wf, p, x, y, z, r, ux, uy, uz):
             return True
     return False
@@ -167,4 +173,4 @@ def hits_walkable(
         if top == base:
             return False
         top -= 1
-        node = int(s[top])
+        node = int(s[unsigned(top)])

@@ -9,7 +9,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from engine.constants import FIRST_INDOOR
-from engine.kernels.compile import inlined, kernel, pasted
+from engine.kernels.compile import inlined, kernel
 from engine.layout import (
     CELL_FLOATS,
     CELL_ID,
@@ -77,7 +77,7 @@ def add_cell(wi: Ints, s: Array, cell: int) -> None:
     s[CELLS_LISTED] += 1.0
 
 
-@pasted
+@kernel
 def remove_cell(wi: Ints, s: Array, i: int) -> None:
     """Remove an entry; the last one takes its place.
 

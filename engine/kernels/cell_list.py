@@ -20,7 +20,7 @@ from engine.kernels.cell_array import (
     remove_cell,
 )
 from engine.kernels.cell_ids import find_cell
-from engine.kernels.compile import pasted
+from engine.kernels.compile import entry, kernel
 from engine.kernels.frame import frame_globaltolocal
 from engine.kernels.land_cells import find_terrain_poly
 from engine.kernels.outside import add_all_outside_cells
@@ -52,7 +52,7 @@ UNTOUCHED: Final = frozen(-2)
 """`find_cell_list` did not look for the cell that contains the position (09, 5.1.4)."""
 
 
-@pasted
+@entry
 def point_in_cell(wf: Array, wi: Ints, cell: int, x: float, y: float, z: float) -> bool:
     """Say whether a cell contains a point of its block.
 
@@ -70,7 +70,7 @@ def point_in_cell(wf: Array, wi: Ints, cell: int, x: float, y: float, z: float) 
     return point_inside_cell_bsp(wf, wi[ints + CELL_PLANES], count, lx, ly, lz)
 
 
-@pasted
+@kernel
 def _containing_cell(wf: Array, wi: Ints, s: Array, home: float, a: Array, first: int) -> int:
     """Return the listed cell that contains the first sphere's centre, or NO_CELL.
 
@@ -93,7 +93,7 @@ def _containing_cell(wf: Array, wi: Ints, s: Array, home: float, a: Array, first
     return found
 
 
-@pasted
+@kernel
 def _keep_visible(wf: Array, wi: Ints, s: Array, start: int) -> None:
     """Drop all listed cells but an environment cell and those in its stab list.
 
@@ -114,7 +114,7 @@ def _keep_visible(wf: Array, wi: Ints, s: Array, start: int) -> None:
             remove_cell(wi, s, i)
 
 
-@pasted
+@entry
 def find_cell_list(
     wf: Array,
     wi: Ints,

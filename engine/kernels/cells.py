@@ -14,7 +14,7 @@ from engine.kernels.bsp_placement import placement_insert
 from engine.kernels.bsp_tree import find_collisions
 from engine.kernels.cell_array import ints_of, is_land, position_of
 from engine.kernels.cell_list import UNTOUCHED, find_cell_list
-from engine.kernels.compile import inlined, kernel, pasted
+from engine.kernels.compile import inlined, kernel
 from engine.kernels.land_cells import find_terrain_collisions
 from engine.kernels.objects import test_part
 from engine.kernels.path import cache_localspace_sphere
@@ -83,7 +83,7 @@ def test_fixed(wf: Array, wi: Ints, s: Array, cell: int, fixed: int) -> int:
     return _test_environment(wf, wi, s, cell)
 
 
-@pasted
+@kernel
 def _test_environment(wf: Array, wi: Ints, s: Array, cell: int) -> int:
     """Test the mover against an environment cell's own tree.
 
@@ -99,7 +99,7 @@ def _test_environment(wf: Array, wi: Ints, s: Array, cell: int) -> int:
     return find_collisions(wf, wi, s, root, 1.0)
 
 
-@pasted
+@kernel
 def _test_building(wf: Array, wi: Ints, s: Array, part: int) -> int:
     """Test the mover against the outside of a house.
 

@@ -9,7 +9,7 @@ from engine.constants import INITIAL_PLACEMENT_INSERT, NEEDS_STEP_UP
 from engine.kernels.bsp_placement import placement_insert
 from engine.kernels.bsp_tree import dispatch, find_collisions
 from engine.kernels.cell_array import ints_of, position_of
-from engine.kernels.compile import entry, kernel, pasted
+from engine.kernels.compile import entry, kernel
 from engine.kernels.path import cache_localspace_sphere, set_check_pos
 from engine.kernels.query import prepare, report, set_path_fields
 from engine.kernels.stepping import step_up_or_slide
@@ -40,7 +40,7 @@ def collide(wf: Array, wi: Ints, s: Array, q: Array, out: Array) -> None:
     _collide(wf, wi, s, q, out)
 
 
-@pasted
+@kernel
 def _collide(wf: Array, wi: Ints, s: Array, q: Array, out: Array) -> None:
     """Make one call, and report."""
     prepare(s, q)

@@ -1,4 +1,4 @@
-"""The one decorator of all kernels, and a compilation cache that notices every change.
+"""The decorators of all kernels, and a compilation cache that notices every change.
 
 Numba keys its cache by the file of the compiled function, but compiled code contains the callees:
 after an edit of another kernel file it would run stale code. Here the key is a digest of everything
@@ -12,7 +12,6 @@ import hashlib
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Final, TypeVar
 
-from numba import njit
 from numba.core.caching import (
     CompileResultCacheImpl,
     FunctionCache,
@@ -20,6 +19,9 @@ from numba.core.caching import (
     UserProvidedCacheLocator,
     UserWideCacheLocator,
 )
+from numba.core.registry import CPUDispatcher
+
+from engine.kernels.linking import KernelCompiler
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -81,8 +83,37 @@ class KernelCache(FunctionCache):
     _impl_class = _CacheImpl
 
 
-def _compiled(function: F, **options: Any) -> F:
-    dispatcher = njit(**OPTIONS, **options)(function)
+class Kernel(CPUDispatcher):
+    """A function that only other kernels call; they link it."""
+
+    def __init__(self, function: Callable[..., Any], **options: Any) -> None:
+        targets = {"nopython": True, "no_cpython_wrapper": True, **OPTIONS, **options}
+        super().__init__(function, targetoptions=targets, pipeline_class=KernelCompiler)
+
+    def __call__(self, *_args: Any, **_options: Any) -> Any:
+        """Refuse: there is nothing to run by itself."""
+        raise TypeError(f"{self.py_func.__name__} is called by kernels only; an `entry` is called by Python")
+
+
+class Entry(CPUDispatcher):
+    """A kernel that Python calls. Other kernels call its twin, which they link."""
+
+    def __init__(self, function: Callable[..., Any], **options: Any) -> None:
+        targets = {"nopython": True, "nogil": True, **OPTIONS, **options}
+        super().__init__(function, targetoptions=targets, pipeline_class=KernelCompiler)
+        self._twin: Final = Kernel(function, **options)
+
+    def get_call_template(self, args: Any, kws: Any) -> Any:
+        """Tell Numba about a call by a kernel."""
+        return self._twin.get_call_template(args, kws)
+
+    def get_overload(self, sig: Any) -> Any:
+        """Return what a call by a kernel calls."""
+        return self._twin.get_overload(sig)
+
+
+def _callable(function: F, **options: Any) -> F:
+    dispatcher: Any = Entry(function, **options)
     try:
         dispatcher._cache = KernelCache(function)  # noqa: SLF001 - Numba offers no other way to a cache of one's own
     except RuntimeError:  # no folder can be written: stay uncached
@@ -92,23 +123,21 @@ def _compiled(function: F, **options: Any) -> F:
 
 def kernel(function: F) -> F:
     """Compile a function that other kernels call; Python cannot call it."""
-    return _compiled(function, no_cpython_wrapper=True)
+    compiled: Any = Kernel(function)
+    return compiled
 
 
 def entry(function: F) -> F:
     """Compile a function that Python, too, may call."""
-    return _compiled(function)
+    return _callable(function)
 
 
 def inlined(function: F) -> F:
     """Compile a small function into each of its callers."""
-    return _compiled(function, forceinline=True, no_cpython_wrapper=True)
+    compiled: Any = Kernel(function, forceinline=True)
+    return compiled
 
 
-def pasted(function: F) -> F:
-    """Paste a function into its caller before types are inferred.
-
-    For a function that stands for itself in the source, but is called from one place, or is short and
-    calls much: compiled by itself, all that it calls would be linked and optimised once more.
-    """
-    return _compiled(function, inline="always")
+def inlined_entry(function: F) -> F:
+    """Compile a function into each of its callers that Python, too, may call."""
+    return _callable(function, forceinline=True)

@@ -17,7 +17,7 @@ from engine.constants import (
     ON_WALKABLE,
     PATH_CLIPPED,
 )
-from engine.kernels.compile import inlined, kernel, pasted
+from engine.kernels.compile import inlined, kernel
 from engine.kernels.cylsphere_responses import (
     collide_with_point,
     land_on_cylinder,
@@ -75,7 +75,7 @@ def test_cylsphere(wf: Array, wi: Ints, s: Array, position: int, scale: float, c
     return _intersects_sphere(wf, wi, s, position, gx, gy, gz, r, h)
 
 
-@pasted
+@kernel
 def _intersects_sphere(
     wf: Array, wi: Ints, s: Array, position: int, x: float, y: float, z: float, r: float, h: float
 ) -> int:
@@ -112,7 +112,7 @@ def _first_overlapping(s: Array, x: float, y: float, z: float, h: float, radsum:
     return NEITHER
 
 
-@pasted
+@kernel
 def _answer(wf: Array, s: Array, position: int, x: float, y: float, z: float, r: float, h: float) -> int:
     """Test in the one way that the path's state asks for; the first match wins.
 
@@ -133,7 +133,7 @@ def _answer(wf: Array, s: Array, position: int, x: float, y: float, z: float, r:
     return _respond(wf, s, position, x, y, z, h, radsum, hit)
 
 
-@pasted
+@kernel
 def _respond(
     wf: Array,
     s: Array,

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Final
 
 from engine.constants import ADJUSTED, COLLIDED, EPS, NEEDS_STEP_UP, PERFECT_CLIP
 from engine.kernels.collision_info import set_collision_normal
-from engine.kernels.compile import inlined, kernel, pasted
+from engine.kernels.compile import inlined, kernel
 from engine.kernels.obstacle import (
     FIRST,
     begin_landing,
@@ -60,7 +60,7 @@ def normal_of_collision(
     return True, 0.0, 0.0, 1.0 if dz - oz32 <= 0.0 else -1.0
 
 
-@pasted
+@kernel
 def step_sphere_up(
     wf: Array, s: Array, position: int, z: float, h: float, nx: float, ny: float, nz: float
 ) -> int:
@@ -88,7 +88,7 @@ def slide_sphere(s: Array, number: int, nx: float, ny: float, nz: float) -> int:
     return slide_either_sphere(s, REQUESTED_NORMAL, sphere_at(number), center_at(number))
 
 
-@pasted
+@kernel
 def land_on_cylinder(s: Array, nx: float, ny: float, nz: float) -> int:
     """Begin a landing.
 
@@ -212,7 +212,7 @@ def _meet_corner(
     return t, ox, oy, oz, nx, ny, nz
 
 
-@pasted
+@kernel
 def _meet_cap(
     s: Array, z: float, h: float, r: float, mx: float, my: float, mz: float
 ) -> tuple[float, float, float, float]:

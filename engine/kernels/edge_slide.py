@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 from engine.constants import COLLIDED, EDGE_SLIDE, OK, ON_WALKABLE
 from engine.kernels.adjust import cliff_slide
 from engine.kernels.collision_info import forget_contact
-from engine.kernels.compile import inlined, pasted
+from engine.kernels.compile import inlined, kernel
 from engine.kernels.path import (
     add_offset_to_check_pos,
     cache_localspace_sphere,
@@ -41,7 +41,7 @@ if TYPE_CHECKING:
     from engine.kernels.types import Array, Ints
 
 
-@pasted
+@kernel
 def step_down_in_halves(wf: Array, wi: Ints, s: Array, height: float, z: float) -> tuple[bool, float]:
     """Step down at once, or in two halves where the step is higher than the sphere.
 
@@ -59,7 +59,7 @@ def step_down_in_halves(wf: Array, wi: Ints, s: Array, height: float, z: float) 
     return found, height
 
 
-@pasted
+@kernel
 def keep_contact(wf: Array, wi: Ints, s: Array) -> tuple[bool, int]:
     """Step down to stay on the ground, or deal with the edge that the mover is beyond.
 
@@ -89,7 +89,7 @@ def _leave_ground(s: Array) -> None:
     s[CELL_ARRAY_VALID] = 1.0
 
 
-@pasted
+@kernel
 def _edge_slide(wf: Array, wi: Ints, s: Array, height: float, z: float) -> tuple[bool, int]:
     """Slide along a cliff or an edge, or step off it.
 
@@ -118,7 +118,7 @@ def _edge_slide(wf: Array, wi: Ints, s: Array, height: float, z: float) -> tuple
     return _edge_behind(wf, wi, s, height, z)
 
 
-@pasted
+@kernel
 def _edge_behind(wf: Array, wi: Ints, s: Array, height: float, z: float) -> tuple[bool, int]:
     """Look for the edge where the mover came from.
 

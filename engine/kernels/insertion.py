@@ -16,7 +16,7 @@ from engine.kernels.cells import (
     test_fixed,
 )
 from engine.kernels.collision_info import forget_contact, set_collision_normal
-from engine.kernels.compile import kernel, pasted
+from engine.kernels.compile import kernel
 from engine.kernels.edge_slide import keep_contact
 from engine.kernels.objects import accept_object, begin_object, test_object_shape
 from engine.kernels.path import restore_check_pos
@@ -53,7 +53,7 @@ if TYPE_CHECKING:
     from engine.kernels.types import Array, Ints
 
 
-@pasted
+@kernel
 def answer_step_up(wf: Array, wi: Ints, s: Array) -> int:
     """Run the step up that a collision asked for, and end its trace.
 
@@ -64,7 +64,7 @@ def answer_step_up(wf: Array, wi: Ints, s: Array) -> int:
     return ts
 
 
-@pasted
+@kernel
 def find_object(wf: Array, wi: Ints, s: Array, thing: int) -> int:
     """Test the mover against an object.
 
@@ -83,7 +83,7 @@ def find_object(wf: Array, wi: Ints, s: Array, thing: int) -> int:
     return accept_object(wi, s, thing, ts)
 
 
-@pasted
+@kernel
 def find_obj_collisions(wf: Array, wi: Ints, s: Array, cell: int) -> int:
     """Test the mover against the objects of a cell.
 
@@ -114,7 +114,7 @@ def find_in_cell(wf: Array, wi: Ints, s: Array, cell: int) -> int:
     return find_obj_collisions(wf, wi, s, cell)
 
 
-@pasted
+@kernel
 def insert_into_cell(wf: Array, wi: Ints, s: Array, cell: int, attempts: int) -> int:
     """Test the mover against a cell until it is neither adjusted nor slid.
 
@@ -132,7 +132,7 @@ def insert_into_cell(wf: Array, wi: Ints, s: Array, cell: int, attempts: int) ->
     return ts
 
 
-@pasted
+@kernel
 def check_other_cells(wf: Array, wi: Ints, s: Array, cell: int) -> int:
     """Test the mover against the other cells that it reaches, and change to the one that contains it.
 
@@ -187,7 +187,7 @@ def transitional_insert(wf: Array, wi: Ints, s: Array, attempts: int) -> int:
     return ts
 
 
-@pasted
+@kernel
 def _land(wf: Array, wi: Ints, s: Array, attempts: int) -> int:
     """Accept a landing that was found, or go back to before the collision.
 
@@ -211,7 +211,7 @@ def _land(wf: Array, wi: Ints, s: Array, attempts: int) -> int:
     return COLLIDED
 
 
-@pasted
+@kernel
 def _answer_negative_hit(wf: Array, wi: Ints, s: Array) -> int:
     """Step on, or slide along, a polygon that was overlapped from behind.
 

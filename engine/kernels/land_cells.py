@@ -16,9 +16,10 @@ from engine.constants import (
     SHALLOW_WATER,
     WET_LAND,
 )
-from engine.kernels.compile import entry, inlined, pasted
+from engine.kernels.compile import entry, inlined, kernel
 from engine.kernels.object_info import validate_walkable
 from engine.kernels.polygon import polygon_make_plane, polygon_point_in_poly2d
+from engine.kernels.polygon_record import polygon_make_edges
 from engine.kernels.position import block_offset
 from engine.kernels.rounding import f32
 from engine.kernels.trace import TERRAIN_CALL, trace_close, trace_open
@@ -49,12 +50,13 @@ if TYPE_CHECKING:
 
 @entry
 def make_planes(wf: Array, first: int, stride: int, count: int) -> None:
-    """Compute the planes of polygon records that lie behind each other.
+    """Compute the planes and edges of polygon records that lie behind each other.
 
     retail: CLandBlockStruct::AddPolygon 0x005310D0, 10 3.4
     """
     for i in range(count):
         polygon_make_plane(wf, first + stride * i)
+        polygon_make_edges(wf, first + stride * i)
 
 
 @entry
@@ -122,7 +124,7 @@ def find_terrain_collisions(wf: Array, wi: Ints, s: Array, cell: int) -> int:
     return _collide_with(wf, wi, s, cell, poly, bx, by, lx, ly)
 
 
-@pasted
+@kernel
 def _collide_with(
     wf: Array, wi: Ints, s: Array, cell: int, poly: int, bx: float, by: float, lx: float, ly: float
 ) -> int:

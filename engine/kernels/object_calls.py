@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING
 
 from engine import layout as at
 from engine.constants import NEEDS_STEP_UP, TARGET_CELL, TARGET_OBJECT, TARGET_OBJECTS
-from engine.kernels.compile import entry, pasted
+from engine.kernels.compile import entry, kernel
 from engine.kernels.insertion import answer_step_up, find_in_cell, find_obj_collisions, find_object
 from engine.kernels.objects import test_object_shape
 from engine.kernels.path import set_check_pos
@@ -16,7 +16,7 @@ if TYPE_CHECKING:
     from engine.kernels.types import Array, Ints
 
 
-@pasted
+@kernel
 def _call(wf: Array, wi: Ints, s: Array, q: Array) -> int:
     """Test the mover against what the query names; a TransitionState."""
     kind, cell, thing = int(q[at.Q_TARGET_KIND]), int(q[at.Q_TARGET_CELL]), int(q[at.Q_TARGET_OBJECT])

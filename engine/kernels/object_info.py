@@ -17,7 +17,7 @@ from engine.constants import (
     ON_WALKABLE,
 )
 from engine.kernels.collision_info import set_collision_normal, set_contact_plane
-from engine.kernels.compile import entry, inlined, pasted
+from engine.kernels.compile import entry, inlined, kernel
 from engine.kernels.path import add_offset_to_check_pos
 from engine.kernels.rounding import f32
 from engine.kernels.vector import load
@@ -116,7 +116,7 @@ def _shorten_step(s: Array, up: float) -> bool:
     return True
 
 
-@pasted
+@kernel
 def _validate_viewer(
     s: Array, x: float, y: float, z: float, r: float, nx: float, ny: float, nz: float, d: float
 ) -> int:

@@ -35,7 +35,7 @@ from engine.kernels.bsp_node import in_bounds
 from engine.kernels.bsp_placement import placement_insert
 from engine.kernels.bsp_tree import find_collisions
 from engine.kernels.collision_info import add_object
-from engine.kernels.compile import inlined, kernel, pasted
+from engine.kernels.compile import inlined, kernel
 from engine.kernels.cylsphere import test_cylsphere
 from engine.kernels.path import cache_localspace_sphere
 from engine.kernels.sphere_obstacle import test_sphere
@@ -161,7 +161,7 @@ def begin_object(wi: Ints, s: Array, thing: int) -> int:
     return wi[record + OBJECT_COUNT]
 
 
-@pasted
+@kernel
 def test_object_shape(wf: Array, wi: Ints, s: Array, thing: int, shape: int) -> int:
     """Test the mover against one of an object's shapes; a TransitionState, or NEEDS_STEP_UP.
 

@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING
 from engine.constants import BLOCK_STEP
 from engine.kernels.cell_array import add_cell
 from engine.kernels.cell_ids import find_cell
-from engine.kernels.compile import entry, kernel, pasted
+from engine.kernels.compile import entry, kernel
 from engine.kernels.land_defs import gid_to_lcoord, in_bounds, lcoord_to_gid, outside_cell
 from engine.kernels.rounding import f32
 from engine.layout import ADDED_OUTSIDE, NO_CELL, RADIUS, SPHERE_SIZE
@@ -32,7 +32,7 @@ def add_outside_cell(wi: Ints, s: Array, x: int, y: int) -> None:
         add_cell(wi, s, -number if cell == NO_CELL else cell)
 
 
-@pasted
+@kernel
 def _add_across_borders(
     wi: Ints, s: Array, px: float, py: float, x: int, y: int, hi: float, lo: float
 ) -> None:

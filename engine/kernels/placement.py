@@ -21,7 +21,7 @@ from engine.constants import (
 )
 from engine.kernels.adjust import adjust_offset
 from engine.kernels.collision_info import forget_contact
-from engine.kernels.compile import inlined, kernel, pasted
+from engine.kernels.compile import inlined, kernel
 from engine.kernels.edge_slide import step_down_in_halves
 from engine.kernels.frame import frame_cache, frame_get_vector_heading, frame_set_heading
 from engine.kernels.insertion import transitional_insert
@@ -72,7 +72,7 @@ def find_placement_position(wf: Array, wi: Ints, s: Array) -> bool:
     return validate_placement(wf, wi, s, OK) == OK
 
 
-@pasted
+@kernel
 def _settle(wf: Array, wi: Ints, s: Array) -> None:
     """Step down on to the ground, if it is near.
 
@@ -90,7 +90,7 @@ def _settle(wf: Array, wi: Ints, s: Array) -> None:
     s[WALKABLE] = NO_POLYGON
 
 
-@pasted
+@kernel
 def _fits(wf: Array, wi: Ints, s: Array) -> bool:
     """Try the check position.
 
@@ -101,7 +101,7 @@ def _fits(wf: Array, wi: Ints, s: Array) -> bool:
     return validate_placement_transition(s, transitional_insert(wf, wi, s, TRANSITION_ATTEMPTS)) == OK
 
 
-@pasted
+@kernel
 def _find_placement_pos(wf: Array, wi: Ints, s: Array) -> bool:
     """Try the current position, then rings of positions about it.
 
@@ -135,7 +135,7 @@ def _find_placement_pos(wf: Array, wi: Ints, s: Array) -> bool:
     return False
 
 
-@pasted
+@kernel
 def _fits_on_ring(wf: Array, wi: Ints, s: Array, dist: float, count: int) -> bool:
     """Try a number of positions at a distance, clockwise from +y.
 

@@ -10,11 +10,13 @@ import math
 from typing import TYPE_CHECKING
 
 from engine.constants import EPS
-from engine.kernels.compile import entry, inlined
-from engine.kernels.polygon_edges import BEYOND, HIT, any_edge_near, disc_touches, last_vertex
+from engine.kernels.compile import entry, inlined, inlined_entry
+from engine.kernels.indexing import unsigned
+from engine.kernels.polygon_edges import BEYOND, HIT, any_edge_near, disc_touches
+from engine.kernels.polygon_record import corner
 from engine.kernels.rounding import f32
 from engine.kernels.vector import dot_x
-from engine.layout import POLYGON_COUNT, POLYGON_VERTICES
+from engine.layout import CORNER_NORMAL, POLYGON_COUNT
 
 if TYPE_CHECKING:
     from engine.kernels.types import Array, Vector
@@ -26,7 +28,8 @@ def plane_distance(wf: Array, at: int, x: float, y: float, z: float) -> float:
 
     retail: 01 1.2
     """
-    return dot_x(wf[at], wf[at + 1], wf[at + 2], x, y, z) + wf[at + 3]
+    p = unsigned(at)
+    return dot_x(wf[p], wf[p + 1], wf[p + 2], x, y, z) + wf[p + 3]
 
 
 @inlined
@@ -35,15 +38,17 @@ def along_normal(wf: Array, at: int, x: float, y: float, z: float) -> float:
 
     retail: 01 1.2
     """
-    return dot_x(x, y, z, wf[at], wf[at + 1], wf[at + 2])
+    p = unsigned(at)
+    return dot_x(x, y, z, wf[p], wf[p + 1], wf[p + 2])
 
 
 @inlined
-def _contact(wf: Array, p: int, dist: float, x: float, y: float, z: float) -> Vector:
+def _contact(wf: Array, at: int, dist: float, x: float, y: float, z: float) -> Vector:
     """Project a sphere's centre on the plane.
 
     retail: PH-3
     """
+    p = unsigned(at)
     pz = f32(dist * wf[p + 2])
     return f32(x - dist * wf[p]), f32(y - dist * wf[p + 1]), f32(z - pz)
 
@@ -55,11 +60,10 @@ def polygon_make_plane(wf: Array, p: int) -> None:
     retail: CPolygon::make_plane 0x005383D0, MP-1...MP-6
     """
     n = int(wf[p + POLYGON_COUNT])
-    first = p + POLYGON_VERTICES
+    first = corner(p, 0)
     sx, sy, sz = 0.0, 0.0, 0.0
     for k in range(1, n - 1):
-        a = first + 3 * k
-        b = a + 3
+        a, b = corner(p, k), corner(p, k + 1)
         bx, by, bz = wf[b] - wf[first], wf[b + 1] - wf[first + 1], wf[b + 2] - wf[first + 2]
         ax, ay, az = f32(wf[a] - wf[first]), f32(wf[a + 1] - wf[first + 1]), wf[a + 2] - wf[first + 2]
         sx = sx + f32(ay * bz - az * by)
@@ -70,7 +74,7 @@ def polygon_make_plane(wf: Array, p: int) -> None:
     nx, ny, nz = f32(inv * sx), f32(inv32 * sy), f32(inv32 * sz)
     total = 0.0
     for k in range(n):
-        v = first + 3 * k
+        v = corner(p, k)
         total = ((total + nz * wf[v + 2]) + ny * wf[v + 1]) + nx * wf[v]
     wf[p] = nx
     wf[p + 1] = ny
@@ -84,10 +88,9 @@ def polygon_point_in_poly2d(wf: Array, p: int, x: float, y: float, side: int) ->
 
     retail: CPolygon::point_in_poly2D 0x00538060, P2-1...P2-4
     """
-    first = p + POLYGON_VERTICES
-    prev = first
+    prev = corner(p, 0)
     for i in range(int(wf[p + POLYGON_COUNT]) - 1, -1, -1):
-        cur = first + 3 * i
+        cur = corner(p, i)
         a = wf[prev + 1] - wf[cur + 1]
         b = wf[cur] - wf[prev]
         s = ((-(a * wf[cur]) - b * wf[cur + 1]) + b * y) + a * x
@@ -100,24 +103,20 @@ def polygon_point_in_poly2d(wf: Array, p: int, x: float, y: float, side: int) ->
     return True
 
 
-@entry
+@inlined_entry
 def polygon_point_in_polygon(wf: Array, p: int, x: float, y: float, z: float) -> bool:
     """Say whether a point is inside every edge, whatever its distance from the plane.
 
     retail: CPolygon::point_in_polygon 0x00538D90, PP-1...PP-3
     """
-    nx, ny, nz = wf[p], wf[p + 1], wf[p + 2]
-    n = int(wf[p + POLYGON_COUNT])
-    prev = last_vertex(p, n)
-    for i in range(n):
-        cur = p + POLYGON_VERTICES + 3 * i
-        ex, ey, ez = wf[cur] - wf[prev], wf[cur + 1] - wf[prev + 1], wf[cur + 2] - wf[prev + 2]
-        cx = f32(ez * ny - ey * nz)
-        cy = f32(ex * nz - ez * nx)
-        cz = ey * nx - ex * ny
-        if ((z - wf[prev + 2]) * cz + (y - wf[prev + 1]) * cy) + (x - wf[prev]) * cx < 0.0:
+    n = int(wf[unsigned(p + POLYGON_COUNT)])
+    at = corner(p, n - 1)
+    for k in range(n):
+        normal = at + CORNER_NORMAL
+        sx, sy, sz = x - wf[at], y - wf[at + 1], z - wf[at + 2]
+        if (sz * wf[normal + 2] + sy * wf[normal + 1]) + sx * wf[normal] < 0.0:
             return False
-        prev = cur
+        at = corner(p, k)
     return True
 
 
@@ -138,7 +137,7 @@ def polygon_hits_sphere(
     return disc_touches(wf, p, qx, qy, qz, rsq), qx, qy, qz
 
 
-@entry
+@inlined_entry
 def polygon_hits_sphere_slow_but_sure(
     wf: Array, p: int, x: float, y: float, z: float, r: float
 ) -> tuple[int, float, float, float]:
@@ -157,7 +156,7 @@ def polygon_hits_sphere_slow_but_sure(
     return any_edge_near(wf, p, qx, qy, qz, rsq), qx, qy, qz
 
 
-@entry
+@inlined_entry
 def polygon_moved_along(wf: Array, p: int, mx: float, my: float, mz: float) -> bool:
     """Say whether a movement does not go against the normal.
 
@@ -166,7 +165,7 @@ def polygon_moved_along(wf: Array, p: int, mx: float, my: float, mz: float) -> b
     return along_normal(wf, p, mx, my, mz) >= 0.0
 
 
-@entry
+@inlined_entry
 def polygon_walkable_hits_sphere(
     wf: Array,
     p: int,

@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from engine.constants import EPS, WALK_INTERP_FLOOR
-from engine.kernels.compile import entry
+from engine.kernels.compile import entry, inlined_entry
 from engine.kernels.polygon import along_normal, plane_distance
 from engine.kernels.rounding import f32
 
@@ -31,7 +31,7 @@ def polygon_adjust_sphere_to_poly(
     return (r - dist0) / v
 
 
-@entry
+@inlined_entry
 def polygon_adjust_sphere_to_plane(
     wf: Array,
     p: int,

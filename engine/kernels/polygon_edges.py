@@ -1,7 +1,7 @@
 """The edges of a CPolygon (02, 0.4): which side is a point on, does a disc about it touch.
 
 The edge walk starts with the edge from the last vertex to the first. The in-plane normal of an edge
-points to the inside.
+points to the inside; it is precomputed (`engine.kernels.polygon_record`).
 """
 
 from __future__ import annotations
@@ -9,8 +9,15 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from engine.kernels.compile import inlined, kernel
+from engine.kernels.indexing import unsigned
+from engine.kernels.polygon_record import corner, edge
 from engine.kernels.rounding import f32
-from engine.layout import POLYGON_COUNT, POLYGON_VERTICES
+from engine.layout import (
+    EDGE_NORMAL,
+    EDGE_NORMAL_SQUARED,
+    EDGE_SQUARED,
+    POLYGON_COUNT,
+)
 
 if TYPE_CHECKING:
     from engine.kernels.types import Array
@@ -24,40 +31,26 @@ _UNDECIDED = -1
 
 
 @inlined
-def last_vertex(p: int, n: int) -> int:
-    """Return where the last vertex of a polygon of n vertices lies."""
-    return p + POLYGON_VERTICES + 3 * (n - 1)
-
-
-@inlined
-def _edge_decision(
-    wf: Array, p: int, prev: int, cur: int, x: float, y: float, z: float, rsq: float
-) -> tuple[int, bool]:
+def _edge_decision(wf: Array, at: int, e: int, x: float, y: float, z: float, rsq: float) -> tuple[int, bool]:
     """Decide by one edge whether a disc of squared radius `rsq` about a point touches the polygon.
 
-    Returns HIT, MISS or undecided, and whether the point is outside this edge.
+    The edge's first vertex lies at `at`, the edge at `e`. Returns HIT, MISS or undecided, and whether
+    the point is outside this edge.
 
     retail: the table of PH-4, PH-5, PH-6
     """
-    nx, ny, nz = wf[p], wf[p + 1], wf[p + 2]
-    ex = f32(wf[cur] - wf[prev])
-    ey = f32(wf[cur + 1] - wf[prev + 1])
-    ez = wf[cur + 2] - wf[prev + 2]
-    ez32 = f32(ez)
-    qx = f32(x - wf[prev])
-    qy = f32(y - wf[prev + 1])
-    qz = z - wf[prev + 2]
+    qx = f32(x - wf[at])
+    qy = f32(y - wf[at + 1])
+    qz = z - wf[at + 2]
     qz32 = f32(qz)
-    cz = ey * nx - ex * ny
-    cy = ex * nz - ez32 * nx
-    cx = ez * ny - ey * nz
-    side = (qz * cz + qy * cy) + qx * cx
+    n = e + EDGE_NORMAL
+    side = (qz * wf[n + 2] + qy * wf[n + 1]) + qx * wf[n]
     outside = side < 0.0
     if outside:
-        if ((cx * cx + cy * cy) + cz * cz) * rsq < side * side:
+        if wf[e + EDGE_NORMAL_SQUARED] * rsq < side * side:
             return MISS, outside
-        along = (qz32 * ez32 + qy * ey) + qx * ex
-        if along >= 0.0 and along <= (ez32 * ez32 + ey * ey) + ex * ex:
+        along = (qz32 * wf[e + 2] + qy * wf[e + 1]) + qx * wf[e]
+        if along >= 0.0 and along <= wf[e + EDGE_SQUARED]:
             return HIT, outside
     if (qz32 * qz32 + qy * qy) + qx * qx <= rsq:
         return HIT, outside
@@ -70,17 +63,16 @@ def disc_touches(wf: Array, p: int, x: float, y: float, z: float, rsq: float) ->
 
     retail: PH-4...PH-7, CW-5...CW-7
     """
-    n = int(wf[p + POLYGON_COUNT])
-    prev = last_vertex(p, n)
+    n = int(wf[unsigned(p + POLYGON_COUNT)])
+    at, e = corner(p, n - 1), edge(p, n, n - 1)
     result = HIT
-    for i in range(n):
-        cur = p + POLYGON_VERTICES + 3 * i
-        decision, outside = _edge_decision(wf, p, prev, cur, x, y, z, rsq)
+    for k in range(n):
+        decision, outside = _edge_decision(wf, at, e, x, y, z, rsq)
         if decision != _UNDECIDED:
             return decision
         if outside:
             result = MISS
-        prev = cur
+        at, e = corner(p, k), edge(p, n, k)
     return result
 
 
@@ -90,12 +82,11 @@ def any_edge_near(wf: Array, p: int, x: float, y: float, z: float, rsq: float) -
 
     retail: SS-5, SS-6
     """
-    n = int(wf[p + POLYGON_COUNT])
-    prev = last_vertex(p, n)
-    for i in range(n):
-        cur = p + POLYGON_VERTICES + 3 * i
-        decision, _ = _edge_decision(wf, p, prev, cur, x, y, z, rsq)
+    n = int(wf[unsigned(p + POLYGON_COUNT)])
+    at, e = corner(p, n - 1), edge(p, n, n - 1)
+    for k in range(n):
+        decision, _ = _edge_decision(wf, at, e, x, y, z, rsq)
         if decision != _UNDECIDED:
             return decision
-        prev = cur
+        at, e = corner(p, k), edge(p, n, k)
     return MISS

@@ -8,9 +8,11 @@ from typing import TYPE_CHECKING
 from engine.constants import EPS
 from engine.kernels.compile import entry, inlined, kernel
 from engine.kernels.polygon import along_normal, plane_distance
-from engine.kernels.polygon_edges import HIT, disc_touches, last_vertex
+from engine.kernels.polygon_edges import HIT, disc_touches
+from engine.kernels.polygon_record import corner, edge
 from engine.kernels.rounding import f32
-from engine.layout import POLYGON_COUNT, POLYGON_VERTICES
+from engine.kernels.vector import load
+from engine.layout import EDGE_NORMAL, POLYGON_COUNT
 
 if TYPE_CHECKING:
     from engine.kernels.types import Array, Vector
@@ -73,26 +75,19 @@ def polygon_find_crossed_edge(
 
     retail: CPolygon::find_crossed_edge 0x00539300, FE-1...FE-5
     """
-    nx, ny, nz = wf[p], wf[p + 1], wf[p + 2]
+    ny, nz = wf[p + 1], wf[p + 2]
     v = along_normal(wf, p, ux, uy, uz)
     if abs(v) < EPS:
         return False, 0.0, 0.0, 0.0
     t = plane_distance(wf, p, x, y, z) / v
     px, py, pz = _below(t, x, y, z, ux, uy, uz)
     n = int(wf[p + POLYGON_COUNT])
-    prev = last_vertex(p, n)
-    for i in range(n):
-        cur = p + POLYGON_VERTICES + 3 * i
-        ex = f32(wf[cur] - wf[prev])
-        ey = f32(wf[cur + 1] - wf[prev + 1])
-        ez = wf[cur + 2] - wf[prev + 2]
-        ez32 = f32(ez)
-        cz = ey * nx - ex * ny
-        cy = ex * nz - ez32 * nx
-        cx = ez * ny - ey * nz
-        if ((pz - wf[prev + 2]) * cz + (py - wf[prev + 1]) * cy) + (px - wf[prev]) * cx < 0.0:
-            gx, gy, gz = f32(ez32 * ny - ey * nz), f32(cy), f32(cz)
+    at, e = corner(p, n - 1), edge(p, n, n - 1)
+    for k in range(n):
+        cx, cy, cz = load(wf, e + EDGE_NORMAL)
+        if ((pz - wf[at + 2]) * cz + (py - wf[at + 1]) * cy) + (px - wf[at]) * cx < 0.0:
+            gx, gy, gz = f32(wf[e + 2] * ny - wf[e + 1] * nz), f32(cy), f32(cz)
             inv = 1.0 / math.sqrt((gx * gx + gy * gy) + gz * gz)
             return True, f32(inv * gx), f32(inv * gy), f32(inv * gz)
-        prev = cur
+        at, e = corner(p, k), edge(p, n, k)
     return False, 0.0, 0.0, 0.0

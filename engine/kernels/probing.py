@@ -21,7 +21,7 @@ from engine.kernels.cells import (
     test_fixed,
 )
 from engine.kernels.collision_info import forget_contact
-from engine.kernels.compile import inlined, kernel, pasted
+from engine.kernels.compile import inlined, kernel
 from engine.kernels.land_defs import outside_cell
 from engine.kernels.objects import accept_object, begin_object, test_object_shape
 from engine.kernels.path import adjust_check_pos, set_check_pos
@@ -56,7 +56,7 @@ def _without_step_up(s: Array, ts: int) -> int:
     return COLLIDED
 
 
-@pasted
+@kernel
 def _probe_object(wf: Array, wi: Ints, s: Array, thing: int) -> int:
     """Test the mover against an object.
 
@@ -93,7 +93,7 @@ def _probe_cell(wf: Array, wi: Ints, s: Array, cell: int) -> int:
     return OK
 
 
-@pasted
+@kernel
 def probe_into_cell(wf: Array, wi: Ints, s: Array, cell: int, attempts: int) -> int:
     """Test the mover against a cell until it is neither adjusted nor slid.
 
@@ -136,7 +136,7 @@ def enter_cell(wf: Array, wi: Ints, s: Array, new_cell: int) -> int:
     return OK
 
 
-@pasted
+@kernel
 def probe_other_cells(wf: Array, wi: Ints, s: Array, cell: int) -> int:
     """Test the mover against the other cells that it reaches, and change to the one that contains it.
 

@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING
 
 from engine import layout as at
 from engine.kernels.collision_info import set_sliding_normal
-from engine.kernels.compile import entry, inlined, pasted
+from engine.kernels.compile import entry, inlined, kernel
 from engine.kernels.frame import frame_cache
 from engine.kernels.path import init_path
 from engine.kernels.rounding import f32
@@ -71,7 +71,7 @@ def store_pose(out: Array, pose: int, s: Array, p: int) -> None:
     copy(out, pose + 5, s, p + at.ORIGIN, at.VECTOR_SIZE)
 
 
-@pasted
+@kernel
 def _init_object(s: Array, q: Array) -> None:
     """Set what the mover is and may do.
 
@@ -101,7 +101,7 @@ def init_spheres(s: Array, count: int, a: Array, spheres: int, scale: float) -> 
     store(s, at.LOCAL_LOW_POINT, x, y, f32(z - s[at.LOCAL_SPHERE + at.RADIUS]))
 
 
-@pasted
+@kernel
 def _seed(s: Array, q: Array) -> None:
     """Set what the mover brings along from its last move.
 
@@ -151,7 +151,7 @@ def report(wf: Array, s: Array, out: Array, result: int) -> None:
     out[at.R_STATUS] = s[at.STATUS]
 
 
-@pasted
+@kernel
 def _report_path(wf: Array, s: Array, out: Array) -> None:
     """Write the part of SPHEREPATH that is not poses and spheres."""
     poly = int(s[at.WALKABLE])

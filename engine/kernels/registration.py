@@ -12,7 +12,7 @@ from engine.constants import BLOCK_STEP, EPS, LAND_WIDTH, frozen
 from engine.kernels.cell_array import add_cell, ints_of, is_land, listed_cell, position_of
 from engine.kernels.cell_ids import find_cell
 from engine.kernels.cell_list import find_cell_list
-from engine.kernels.compile import entry, inlined, kernel, pasted
+from engine.kernels.compile import entry, inlined, kernel
 from engine.kernels.land_defs import gid_to_lcoord, outside_cell
 from engine.kernels.outside import add_outside_cell
 from engine.kernels.position import position_localtoglobal, position_localtolocal
@@ -112,7 +112,7 @@ def _box_within(wf: Array, cell: int, a: Array, part: int) -> Box:
     return box
 
 
-@pasted
+@kernel
 def _box_in_block(home: float, a: Array, part: int) -> Box:
     """Return the box about a part's box, in the block of a cell id.
 
@@ -185,7 +185,7 @@ def _distance(wf: Array, cell: int, plane: int, a: Array, part: int) -> tuple[fl
     return d, f32(a[part + REACH_SPHERE + RADIUS] + EPS)
 
 
-@pasted
+@kernel
 def _leaves(wf: Array, cell: int, plane: int, side: int, a: Array, part: int) -> bool:
     """Say whether a part is not all on the inner side of a portal.
 
@@ -199,7 +199,7 @@ def _leaves(wf: Array, cell: int, plane: int, side: int, a: Array, part: int) ->
     return _side_of(wf, plane, _box_within(wf, cell, a, part)) != side
 
 
-@pasted
+@kernel
 def _enters(wf: Array, cell: int, plane: int, side: int, a: Array, part: int) -> bool:
     """Say whether a part reaches to the inner side of a portal.
 
@@ -223,7 +223,7 @@ def _column(x: float) -> int:
     return math.floor(min(max(x / BLOCK_STEP, -_FAR), _FAR))
 
 
-@pasted
+@kernel
 def _columns_under(home: float, a: Array, part: int) -> tuple[int, int, int, int]:
     """Return the first and last column and row of land cells that a part covers.
 
@@ -294,7 +294,7 @@ def _add_rooms(wf: Array, wi: Ints, s: Array, cell: int, a: Array, first: int, c
     return _add_outside(wi, s, a, first, count) if outside else 0
 
 
-@pasted
+@kernel
 def _enter_room(
     wf: Array, wi: Ints, s: Array, cell: int, portal: int, a: Array, first: int, count: int
 ) -> int:
@@ -316,7 +316,7 @@ def _enter_room(
     return 0
 
 
-@pasted
+@kernel
 def _enter_building(wf: Array, wi: Ints, s: Array, building: int, a: Array, first: int, count: int) -> int:
     """Append the cells that the parts reach into through a building's portals; return as `_add_outside`.
 

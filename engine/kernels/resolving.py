@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from engine.kernels.compile import entry, pasted
+from engine.kernels.compile import entry, kernel
 from engine.kernels.query import prepare, report
 from engine.kernels.transition import find_valid_position
 
@@ -21,7 +21,7 @@ def resolve(wf: Array, wi: Ints, s: Array, q: Array, out: Array) -> None:
     _resolve(wf, wi, s, q, out)
 
 
-@pasted
+@kernel
 def _resolve(wf: Array, wi: Ints, s: Array, q: Array, out: Array) -> None:
     """Run one transition, and report."""
     prepare(s, q)

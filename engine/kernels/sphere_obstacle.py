@@ -15,7 +15,7 @@ from engine.constants import (
     ON_WALKABLE,
     PATH_CLIPPED,
 )
-from engine.kernels.compile import inlined, kernel, pasted
+from engine.kernels.compile import inlined, kernel
 from engine.kernels.obstacle import (
     FIRST,
     NEITHER,
@@ -70,7 +70,7 @@ def test_sphere(
     return _intersects_sphere(wi, s, gx, gy, gz, f32(scale * wf[sphere + RADIUS]), is_creature)
 
 
-@pasted
+@kernel
 def _intersects_sphere(wi: Ints, s: Array, x: float, y: float, z: float, r: float, is_creature: bool) -> int:
     """Test the mover against a sphere in the block of the check position.
 
@@ -103,7 +103,7 @@ def _first_overlapping(s: Array, x: float, y: float, z: float, radsum: float) ->
     return NEITHER
 
 
-@pasted
+@kernel
 def _answer(s: Array, x: float, y: float, z: float, r: float, is_creature: bool) -> int:
     """Test in the one way that the path's state asks for; the first match wins.
 
@@ -123,7 +123,7 @@ def _answer(s: Array, x: float, y: float, z: float, r: float, is_creature: bool)
     return _respond(s, x, y, z, radsum, hit)
 
 
-@pasted
+@kernel
 def _respond(s: Array, x: float, y: float, z: float, radsum: float, hit: int) -> int:
     """Step up, slide, stop or begin a landing, as the mover's state asks for.
 

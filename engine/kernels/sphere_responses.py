@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 
 from engine.constants import ADJUSTED, COLLIDED, EPS, NEEDS_STEP_UP, PERFECT_CLIP, SLID
 from engine.kernels.collision_info import set_collision_normal, sliding_reference
-from engine.kernels.compile import entry, kernel, pasted
+from engine.kernels.compile import entry, kernel
 from engine.kernels.obstacle import (
     SECOND,
     begin_landing,
@@ -54,7 +54,7 @@ def find_time_of_collision(
     return earlier_root(math.sqrt(disc), dot) / a
 
 
-@pasted
+@kernel
 def step_sphere_up(s: Array, x: float, y: float, z: float, radsum: float) -> int:
     """Ask for a step onto the sphere, or slide along it if it is too high.
 
@@ -98,7 +98,7 @@ def _slide_first_sphere(s: Array, x: float, y: float, z: float, dx: float, dy: f
     return SLID
 
 
-@pasted
+@kernel
 def slide_second_sphere(s: Array, x: float, y: float, z: float) -> int:
     """Slide along a sphere that only sphere 1 touches.
 
@@ -112,7 +112,7 @@ def slide_second_sphere(s: Array, x: float, y: float, z: float) -> int:
     return slide_either_sphere(s, REQUESTED_NORMAL, sphere_at(SECOND), center_at(SECOND))
 
 
-@pasted
+@kernel
 def land_on_sphere(s: Array, x: float, y: float, z: float) -> int:
     """Begin a landing.
 

@@ -17,7 +17,7 @@ from engine.constants import (
     Z_LANDING,
 )
 from engine.kernels.collision_info import forget_contact
-from engine.kernels.compile import inlined, kernel, pasted
+from engine.kernels.compile import inlined, kernel
 from engine.kernels.frame import frame_localtoglobalvec
 from engine.kernels.path import (
     add_offset_to_check_pos,
@@ -118,7 +118,7 @@ def _probe_depth(s: Array) -> float:
     return h
 
 
-@pasted
+@kernel
 def check_walkable(wf: Array, wi: Ints, s: Array, z: float) -> bool:
     """Say whether the mover is supported, by the polygon it found or by anything below.
 
@@ -137,7 +137,7 @@ def check_walkable(wf: Array, wi: Ints, s: Array, z: float) -> bool:
     return ts != OK
 
 
-@pasted
+@kernel
 def insert_as_placement(wf: Array, wi: Ints, s: Array, attempts: int) -> int:
     """Test whether there is room at the check position.
 
@@ -208,7 +208,7 @@ def step_up_slide(s: Array) -> int:
     return slide_sphere(s, STEP_UP_NORMAL)
 
 
-@pasted
+@kernel
 def step_up_or_slide(wf: Array, wi: Ints, s: Array) -> int:
     """Answer a collision that asked for a step up on `REQUESTED_NORMAL`.
 

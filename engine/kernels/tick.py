@@ -46,7 +46,7 @@ from engine.constants import (
     ON_WALKABLE_TS,
     SLEDDING_PS,
 )
-from engine.kernels.compile import entry, inlined, kernel, pasted
+from engine.kernels.compile import entry, inlined, kernel
 from engine.kernels.frame import frame_set_heading, frame_set_vector_heading
 from engine.kernels.frame_motion import frame_combine_identity, set_frame, vector_heading
 from engine.kernels.position import position_get_offset
@@ -97,7 +97,7 @@ def step_many(wf: Array, wi: Ints, s: Array, bodies: Array, quantum: float, tick
                 update_object_internal(wf, wi, s, b, quantum)
 
 
-@pasted
+@kernel
 def update_object_internal(wf: Array, wi: Ints, s: Array, b: Array, quantum: float) -> None:
     """Perform one tick.
 
@@ -206,7 +206,7 @@ def _face_movement(b: Array) -> None:
             frame_set_heading(b, B_WANTED, f32(vector_heading(x, y)))
 
 
-@pasted
+@kernel
 def _move(wf: Array, wi: Ints, s: Array, b: Array, quantum: float) -> None:
     """Run the transition and take over what it ends in.
 

@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING
 from engine.constants import EPS, OUTSIDE
 from engine.kernels.bsp_cell import sphere_intersects_cell_bsp
 from engine.kernels.cell_array import add_cell, ints_of, is_land, position_of
-from engine.kernels.compile import entry, kernel, pasted
+from engine.kernels.compile import entry, kernel
 from engine.kernels.frame import frame_globaltolocal
 from engine.kernels.outside import add_all_outside_cells
 from engine.kernels.rounding import f32
@@ -68,7 +68,7 @@ def _is_reached(wf: Array, wi: Ints, cell: int, a: Array, first: int, count: int
     return False
 
 
-@pasted
+@kernel
 def _touches_exterior(wf: Array, position: int, plane: int, a: Array, first: int, count: int) -> bool:
     """Say whether any sphere touches the plane of a door, which has no end.
 
@@ -88,7 +88,7 @@ def _touches_exterior(wf: Array, position: int, plane: int, a: Array, first: int
     return False
 
 
-@pasted
+@kernel
 def _reaches_unloaded(
     wf: Array, position: int, plane: int, side: int, a: Array, first: int, count: int
 ) -> bool:
@@ -122,7 +122,7 @@ def check_building_transit(
         add_cell(wi, s, cell)
 
 
-@pasted
+@kernel
 def _add_rooms(wf: Array, wi: Ints, s: Array, building: int, a: Array, first: int, count: int) -> None:
     """Append the cells that the spheres reach into through a building's portals.
 
@@ -137,7 +137,7 @@ def _add_rooms(wf: Array, wi: Ints, s: Array, building: int, a: Array, first: in
         portal += BUILDING_PORTAL_INTS
 
 
-@pasted
+@kernel
 def _add_neighbours(wf: Array, wi: Ints, s: Array, cell: int, a: Array, first: int, count: int) -> bool:
     """Append the cells behind an environment cell's portals that the spheres reach.
 
@@ -164,7 +164,7 @@ def _add_neighbours(wf: Array, wi: Ints, s: Array, cell: int, a: Array, first: i
     return outside
 
 
-@pasted
+@entry
 def find_transit_cells(
     wf: Array,
     wi: Ints,

@@ -18,7 +18,7 @@ from engine.constants import (
 from engine.kernels.adjust import adjust_offset
 from engine.kernels.cells import build_cell_array
 from engine.kernels.collision_info import forget_contact
-from engine.kernels.compile import entry, inlined, kernel, pasted
+from engine.kernels.compile import entry, inlined, kernel
 from engine.kernels.frame import frame_interpolate_rotation, frame_set_rotate
 from engine.kernels.insertion import transitional_insert
 from engine.kernels.path import add_offset_to_check_pos, set_check_pos
@@ -112,7 +112,7 @@ def _take_end_rotation(s: Array) -> None:
     frame_set_rotate(s, CURR_POS, s[q], s[q + 1], s[q + 2], s[q + 3])
 
 
-@pasted
+@kernel
 def _find_transitional_position(wf: Array, wi: Ints, s: Array) -> bool:
     """Move from the begin towards the end position.
 
@@ -168,7 +168,7 @@ def _last_viewer_step(
     return _scaled(k, ox, oy, oz)
 
 
-@pasted
+@kernel
 def _sub_step(wf: Array, wi: Ints, s: Array, x: float, y: float, z: float) -> int:
     """Move by one offset, as far as nothing is in the way.
 

@@ -25,7 +25,7 @@ from engine.kernels.collision_info import (
     set_contact_plane,
     set_sliding_normal,
 )
-from engine.kernels.compile import inlined, kernel, pasted
+from engine.kernels.compile import inlined, kernel
 from engine.kernels.frame import frame_is_equal
 from engine.kernels.path import cache_global_curr_center, set_check_pos
 from engine.kernels.probing import probe_into_cell, probe_other_cells
@@ -101,7 +101,7 @@ def accept_check_pos(s: Array) -> None:
     cache_global_curr_center(s)
 
 
-@pasted
+@kernel
 def _readopt_last_known_plane(s: Array) -> bool:
     """Take the last known plane as contact again if the mover still touches it.
 
@@ -122,7 +122,7 @@ def _readopt_last_known_plane(s: Array) -> bool:
     return int(s[OI_STATE]) & ON_WALKABLE != 0
 
 
-@pasted
+@kernel
 def _count_stationary_fall(s: Array, moved: bool) -> None:
     """Count the sub-steps in which a falling mover did not move; put it on a floor after the third.
 
@@ -143,7 +143,7 @@ def _count_stationary_fall(s: Array, moved: bool) -> None:
             s[COLLIDED_WITH_ENVIRONMENT] = 1.0
 
 
-@pasted
+@kernel
 def _remember_contact(s: Array) -> None:
     """Note the contact plane as the last known one, and in the mover's state.
 
@@ -163,7 +163,7 @@ def _remember_contact(s: Array) -> None:
     s[OI_STATE] = state | ON_WALKABLE if walkable else state & ~ON_WALKABLE
 
 
-@pasted
+@kernel
 def validate_placement_transition(s: Array, ts: int) -> int:
     """Accept a placement, or forget what it touched.
 
@@ -191,7 +191,7 @@ def placement_insert(wf: Array, wi: Ints, s: Array) -> int:
     return ts
 
 
-@pasted
+@kernel
 def validate_placement(wf: Array, wi: Ints, s: Array, ts: int) -> int:
     """Accept a placement; test one that was moved once more.
 

@@ -47,7 +47,8 @@ def test_flat_ground_has_level_planes() -> None:
 
 def test_triangles_name_their_corners_in_retails_order() -> None:
     """Cell (0, 0) is cut to the north-east, cell (1, 0) to the north-west."""
-    records = triangles(0x0000, FLAT)[..., at.POLYGON_VERTICES :].reshape(8, 8, 2, 3, 3)[..., :2]
+    corners = triangles(0x0000, FLAT)[..., at.POLYGON_CORNERS :][..., : 3 * at.CORNER_SIZE]
+    records = corners.reshape(8, 8, 2, 3, at.CORNER_SIZE)[..., :2]
     sw, se, ne, nw = (0, 0), (24, 0), (24, 24), (0, 24)
     assert records[0, 0].tolist() == np.array([[sw, se, ne], [sw, ne, nw]], dtype=float).tolist()
     east = np.add([[sw, se, nw], [ne, nw, se]], (24.0, 0.0))

@@ -1,0 +1,80 @@
+"""The yardstick at work: all queries in one call, on one thread."""
+
+from __future__ import annotations
+
+import shutil
+import tempfile
+import weakref
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+from weakref import WeakKeyDictionary
+
+import numpy as np
+
+from conformance.bench import engine_jobs as ops
+from conformance.bench.native.compiler import compile_yardstick, find_compiler
+from conformance.bench.native.library import Yardstick
+from conformance.bench.timing import Answer, Job
+
+if TYPE_CHECKING:
+    from collections.abc import MutableMapping
+
+    from conformance.bench.native.library import NativeTree
+    from conformance.bench.scenes import BenchScene
+    from conformance.bench.timing import Maker
+    from conformance.bench.work import KernelWork
+
+
+class Native:
+    """The yardstick as an implementation, compiled into a folder that goes with it.
+
+    Attributes
+    ----------
+    compiler : str
+        What compiled it, and how.
+
+    Raises
+    ------
+    NoCompilerError
+        If it cannot be compiled here.
+    """
+
+    def __init__(self) -> None:
+        found = find_compiler()
+        self.compiler = found.describe()
+        folder = Path(tempfile.mkdtemp(prefix="yardstick-"))
+        weakref.finalize(self, shutil.rmtree, folder, ignore_errors=True)
+        self._yardstick = Yardstick(compile_yardstick(found, folder))
+        self._trees: MutableMapping[BenchScene, NativeTree] = WeakKeyDictionary()
+
+    def maker(self, op: str) -> Maker:
+        """Return it as an implementation of a sphere that strikes, or steps down."""
+        return {ops.STRIKE: self._strike_job, ops.STEP_DOWN: self._step_down_job}[op]
+
+    def _tree(self, scene: BenchScene) -> NativeTree:
+        tree = self._trees.get(scene)
+        if tree is None:
+            tree = self._trees[scene] = self._yardstick.tree(scene)
+        return tree
+
+    def _strike_job(self, work: KernelWork) -> Job:
+        tree, spheres, movements = self._tree(work.scene), _singles(work.spheres), _singles(work.movements)
+
+        def answer(done: Any) -> Answer:
+            return np.column_stack(done).astype(np.float64)
+
+        return Job(lambda: tree.strike(spheres, movements), answer, len(work))
+
+    def _step_down_job(self, work: KernelWork) -> Job:
+        tree = self._tree(work.scene)
+        spheres, movements, ups = (_singles(a) for a in (work.spheres, work.movements, work.ups))
+        limits = _singles(np.column_stack([work.allowances, work.interps]))
+
+        def answer(done: Any) -> Answer:
+            return np.column_stack(done).astype(np.float64)
+
+        return Job(lambda: tree.step_down(spheres, movements, ups, limits), answer, len(work))
+
+
+def _singles(values: Any) -> Any:
+    return np.ascontiguousarray(values, dtype=np.float32)

@@ -1,0 +1,94 @@
+"""How much a run measures."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+from typing import TYPE_CHECKING, Final
+
+from conformance.bench import engine_jobs as ops
+
+if TYPE_CHECKING:
+    from collections.abc import Mapping
+    from pathlib import Path
+
+BATCHES: Final = (1, 100, 10_000)
+"""Queries in a call of the engine."""
+LARGE: Final = 10_000
+"""The batch in which the engine meets everybody else."""
+THREADS: Final = 2
+SECTIONS: Final = ("oracle", "native", "noise", "threads", "peers", "precision", "scaling")
+"""What can be asked for alone."""
+
+
+@dataclass(frozen=True, slots=True)
+class Settings:
+    """What to measure, and how often.
+
+    Attributes
+    ----------
+    seed : int
+        Of all random points.
+    sections : tuple of str
+        Of `SECTIONS`.
+    scenes : tuple of str
+        Of `conformance.bench.scenes.GRIDS`.
+    rounds : int
+        Rounds beside implementations in Python.
+    fast_rounds : int
+        Rounds beside compiled ones.
+    sizes : mapping of str to int
+        Operation to the queries of a round beside the oracle.
+    grids : tuple of (int, int)
+        Rooms along x and y of the scenes of the scaling curves.
+    fixtures : Path or None
+        Folder of real cells.
+    """
+
+    seed: int
+    sections: tuple[str, ...]
+    scenes: tuple[str, ...]
+    rounds: int
+    fast_rounds: int
+    sizes: Mapping[str, int]
+    grids: tuple[tuple[int, int], ...]
+    fixtures: Path | None = field(default=None)
+
+
+QUICK_SIZES: Final[Mapping[str, int]] = {
+    ops.STRIKE: 400,
+    ops.STEP_DOWN: 400,
+    ops.FIND_COLLISIONS: 150,
+    ops.CONTACT_WALK: 60,
+    ops.FREE_FLIGHT: 60,
+    ops.TICK: 20,
+    ops.TOUCH: 500,
+}
+FULL_SIZES: Final[Mapping[str, int]] = {op: 2 * size for op, size in QUICK_SIZES.items()}
+
+
+def quick(seed: int, sections: tuple[str, ...], fixtures: Path | None) -> Settings:
+    """Return the settings of a run of less than a minute."""
+    return Settings(
+        seed=seed,
+        sections=sections,
+        scenes=("room", "building"),
+        rounds=5,
+        fast_rounds=11,
+        sizes=QUICK_SIZES,
+        grids=((2, 1), (3, 3), (6, 6)),
+        fixtures=fixtures,
+    )
+
+
+def full(seed: int, sections: tuple[str, ...], fixtures: Path | None) -> Settings:
+    """Return the settings of a run of less than ten minutes."""
+    return Settings(
+        seed=seed,
+        sections=sections,
+        scenes=("room", "building", "dungeon"),
+        rounds=11,
+        fast_rounds=31,
+        sizes=FULL_SIZES,
+        grids=((2, 1), (4, 4), (7, 7), (12, 12), (22, 22), (38, 38)),
+        fixtures=fixtures,
+    )

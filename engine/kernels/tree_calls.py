@@ -1,0 +1,73 @@
+"""The two walks that nearly every query consists of, asked by themselves, many at a time."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from engine.kernels.bsp_poly import sphere_intersects_poly
+from engine.kernels.bsp_walkable import find_walkable
+from engine.kernels.compile import entry, inlined
+from engine.kernels.rounding import f32
+from engine.layout import NO_POLYGON, POLYGON_ID, RADIUS, WALK_INTERP, WALKABLE_ALLOWANCE
+
+if TYPE_CHECKING:
+    from engine.kernels.types import Array, Ints, Vector
+
+
+@inlined
+def _vector(a: Array, i: int) -> Vector:
+    """Read one of many vectors, or centres, as float32."""
+    return f32(a[i, 0]), f32(a[i, 1]), f32(a[i, 2])
+
+
+@inlined
+def _id(wf: Array, poly: int) -> int:
+    """Return a polygon's id in its shape, or -1."""
+    return int(wf[poly + POLYGON_ID]) if poly != NO_POLYGON else -1
+
+
+@entry
+def strike_many(
+    wf: Array, wi: Ints, s: Array, root: int, spheres: Array, movements: Array, struck: Ints, polygons: Ints
+) -> None:
+    """Find for each sphere the polygon that it strikes.
+
+    retail: what calls BSPNODE::sphere_intersects_poly 0x0053CA30, 03 2
+    """
+    for i in range(len(spheres)):
+        x, y, z = _vector(spheres, i)
+        mx, my, mz = _vector(movements, i)
+        r = f32(spheres[i, RADIUS])
+        struck[i], poly = sphere_intersects_poly(wf, wi, s, root, x, y, z, r, mx, my, mz, NO_POLYGON)
+        polygons[i] = _id(wf, poly)
+
+
+@entry
+def step_down_many(
+    wf: Array,
+    wi: Ints,
+    s: Array,
+    root: int,
+    spheres: Array,
+    movements: Array,
+    ups: Array,
+    allowances: Array,
+    interps: Array,
+    centers: Array,
+    polygons: Ints,
+) -> None:
+    """Put each sphere on the polygons that it can walk on; `interps` is ratcheted down in place.
+
+    retail: what calls BSPNODE::find_walkable 0x0053CC80, 03 5
+    """
+    for i in range(len(spheres)):
+        x, y, z = _vector(spheres, i)
+        r = f32(spheres[i, RADIUS])
+        mx, my, mz = _vector(movements, i)
+        ux, uy, uz = _vector(ups, i)
+        s[WALKABLE_ALLOWANCE] = f32(allowances[i])
+        s[WALK_INTERP] = f32(interps[i])
+        poly, x, y, z = find_walkable(wf, wi, s, root, x, y, z, r, mx, my, mz, ux, uy, uz)
+        centers[i, 0], centers[i, 1], centers[i, 2] = x, y, z
+        interps[i] = s[WALK_INTERP]
+        polygons[i] = _id(wf, poly)

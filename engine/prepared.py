@@ -1,0 +1,84 @@
+"""One query asked again and again, without building rows anew."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any, Final
+
+import numpy as np
+
+from engine import layout as at
+from engine.batch import check_status
+from engine.kernels.collisions import collide_many
+from engine.kernels.resolving import resolve_many
+from engine.query import CollisionCall, Move, collision_rows, move_rows
+from engine.tracing import runnable
+
+if TYPE_CHECKING:
+    from engine.world import World
+
+
+class Prepared:
+    """A query with rows of its own: asking it costs little more than the answer.
+
+    Parameters
+    ----------
+    world : World
+    query : Move or CollisionCall
+
+    Attributes
+    ----------
+    query : numpy record of `engine.layout.QUERY_DTYPE`
+        May be changed between two runs, field by field, with numbers that are float32. Nothing is
+        checked again.
+    result : numpy record of `engine.layout.RESULT_DTYPE`
+        The last answer, overwritten by the next.
+
+    Raises
+    ------
+    QueryError, PoseError
+        If it cannot be asked about.
+
+    Examples
+    --------
+    >>> from engine import Cell, Leaf, Move, Mover, Pose, Prepared, Shape, World
+    >>> floor = Shape([(-5, -5, 0), (5, -5, 0), (0, 5, 0)], [(0, 1, 2)], Leaf((0, 0, 0, 10), (0,)))
+    >>> world = World([Cell(0x01000100, Pose(0x01000100), floor)])
+    >>> mover = Mover([(0, 0, 0.5, 0.5)], step_down_height=1.5)
+    >>> ends = Pose(0x01000100, (0, 0, 1)), Pose(0x01000100, (0, 0, 0.75))
+    >>> fall = Prepared(world, Move(mover, ends[1], 0x01000100, start=ends[0]))
+    >>> float(fall.run()["curr"][7])
+    0.75
+    >>> fall.query["end"][7] = 0.5
+    >>> float(fall.run()["curr"][7])
+    0.5
+    """
+
+    def __init__(self, world: World, query: Move | CollisionCall) -> None:
+        if isinstance(query, Move):
+            rows, self._kernel = move_rows(world, [query]), resolve_many
+        else:
+            rows, self._kernel = collision_rows(world, [query]), collide_many
+        results = np.zeros(1, dtype=at.RESULT_DTYPE)
+        self.query: Final[Any] = rows[0]
+        self.result: Final[Any] = results[0]
+        self._numbers: Final = results.view(np.float64)
+        self._arguments: Final = (
+            world.floats,
+            world.ints,
+            world.new_row(),
+            rows.view(np.float64).reshape(1, at.QUERY_SIZE),
+            self._numbers.reshape(1, at.RESULT_SIZE),
+        )
+
+    def run(self) -> Any:
+        """Ask, and return `result`.
+
+        Raises
+        ------
+        RecursionBoundError
+            As `engine.resolve`.
+        """
+        runnable(self._kernel)(*self._arguments)
+        if self._numbers[at.R_STATUS] != at.STATUS_OK:
+            check_status(self._numbers[at.R_STATUS : at.R_STATUS + 1])
+        return self.result

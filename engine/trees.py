@@ -1,0 +1,171 @@
+"""A cell's tree asked directly, many spheres at a time: what is struck, and what is walked on."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from engine import layout as at
+from engine.errors import QueryError
+from engine.kernels import tree_calls
+from engine.threads import in_parts
+from engine.tracing import runnable
+
+if TYPE_CHECKING:
+    from collections.abc import Callable, Sequence
+
+    import numpy.typing as npt
+
+    from engine.kernels.types import Array
+    from engine.world import World
+
+
+def strike_many(
+    world: World, cell: int, spheres: npt.ArrayLike, movements: npt.ArrayLike, *, threads: int = 1
+) -> tuple[npt.NDArray[np.int32], npt.NDArray[np.int32]]:
+    """Find for each moving sphere a polygon of a cell that it overlaps and that faces its movement.
+
+    Parameters
+    ----------
+    world : World
+    cell : int
+        Index of the cell.
+    spheres : array_like, shape (n, 4)
+        Centre x, y, z where the sphere is, and radius; metres, cell-local. Rounded to float32.
+    movements : array_like, shape (n, 3)
+        How it came there; metres, cell-local. Rounded to float32.
+    threads : int
+        How many share the work; the answers are the same for any number.
+
+    Returns
+    -------
+    struck : ndarray of int32, shape (n,)
+        1 if there is such a polygon, else 0.
+    polygons : ndarray of int32, shape (n,)
+        Id of the last polygon that the sphere overlapped, or -1; the struck one if it is struck.
+
+    Raises
+    ------
+    QueryError
+        If the cell has no tree, or an array has another shape.
+
+    Notes
+    -----
+    retail: BSPNODE::sphere_intersects_poly 0x0053CA30, SP-1...SP-6
+    """
+    given = _numbers(spheres, at.SPHERE_SIZE, "spheres")
+    count = len(given)
+    struck, polygons = np.empty((2, count), dtype=np.int32)
+    rows = (given, _vectors(movements, count, "movements"), struck, polygons)
+    _run(tree_calls.strike_many, world, cell, rows, threads)
+    return struck, polygons
+
+
+def step_down_many(
+    world: World,
+    cell: int,
+    spheres: npt.ArrayLike,
+    movements: npt.ArrayLike,
+    ups: npt.ArrayLike,
+    allowances: npt.ArrayLike,
+    interps: npt.ArrayLike,
+    *,
+    threads: int = 1,
+) -> tuple[Array, Array, npt.NDArray[np.int32]]:
+    """Move each sphere back along its movement on to the polygons of a cell that it can walk on.
+
+    Parameters
+    ----------
+    world : World
+    cell : int
+        Index of the cell.
+    spheres : array_like, shape (n, 4)
+        Centre x, y, z and radius; metres, cell-local. Everything is rounded to float32.
+    movements : array_like, shape (n, 3)
+        The way down that the sphere has made; metres.
+    ups : array_like, shape (n, 3)
+        The world's z axis in cell space.
+    allowances : array_like, shape (n,)
+        Least component of a walkable polygon's normal along `ups`.
+    interps : array_like, shape (n,)
+        How much of the movement may be used: retail's walk_interp, 1 at first.
+    threads : int
+        How many share the work; the answers are the same for any number.
+
+    Returns
+    -------
+    centers : ndarray of float64, shape (n, 3)
+        Where the sphere rests; its centre as given if nothing carries it.
+    interps : ndarray of float64, shape (n,)
+        What is left of the movement.
+    polygons : ndarray of int32, shape (n,)
+        Id of the last polygon that moved it, or -1.
+
+    Raises
+    ------
+    QueryError
+        If the cell has no tree, or an array has another shape.
+
+    Notes
+    -----
+    retail: BSPNODE::find_walkable 0x0053CC80, FW-1...FW-5
+    """
+    given = _numbers(spheres, at.SPHERE_SIZE, "spheres")
+    count = len(given)
+    left = np.array(_scalars(interps, count, "interps"))
+    centers = np.empty((count, at.VECTOR_SIZE), dtype=np.float64)
+    polygons = np.empty(count, dtype=np.int32)
+    rows = (
+        given,
+        _vectors(movements, count, "movements"),
+        _vectors(ups, count, "ups"),
+        _scalars(allowances, count, "allowances"),
+        left,
+        centers,
+        polygons,
+    )
+    _run(tree_calls.step_down_many, world, cell, rows, threads)
+    return centers, left, polygons
+
+
+def _run(
+    kernel: Callable[..., None], world: World, cell: int, rows: Sequence[npt.NDArray[Any]], threads: int
+) -> None:
+    run, root = runnable(kernel), _tree(world, cell)
+
+    def work(part: slice) -> None:
+        run(world.floats, world.ints, world.new_row(), root, *(array[part] for array in rows))
+
+    in_parts(work, len(rows[0]), threads)
+
+
+def _tree(world: World, cell: int) -> int:
+    if not 0 <= cell < len(world.cell_ids):
+        raise QueryError("cell", f"{cell} does not exist ({len(world.cell_ids)} cells)")
+    root = world.tree_of(cell)
+    if root == at.NO_TREE:
+        raise QueryError("cell", f"{cell} has no tree to collide with")
+    return root
+
+
+def _numbers(values: npt.ArrayLike, width: int, where: str) -> Array:
+    """Return rows of numbers without copying what is laid out right."""
+    array = np.ascontiguousarray(values, dtype=np.float64)
+    if array.ndim != 2 or array.shape[1] != width:
+        raise QueryError(where, f"shape {array.shape} where ('n', {int(width)}) is needed")
+    return array
+
+
+def _vectors(values: npt.ArrayLike, count: int, where: str) -> Array:
+    array = _numbers(values, at.VECTOR_SIZE, where)
+    if len(array) != count:
+        raise QueryError(where, f"{len(array)} of them for {count} spheres")
+    return array
+
+
+def _scalars(values: npt.ArrayLike, count: int, where: str) -> Array:
+    array = np.ascontiguousarray(values, dtype=np.float64)
+    if array.shape != (count,):
+        raise QueryError(where, f"shape {array.shape} where ({count},) is needed")
+    return array

@@ -1,0 +1,103 @@
+"""Implementations that take turns: order, equality, and what is summarised."""
+
+from __future__ import annotations
+
+import gc
+import math
+from typing import Any
+
+import numpy as np
+import pytest
+
+from conformance.bench.timing import (
+    Answer,
+    DisagreementError,
+    Job,
+    comparison,
+    demand_equal,
+    equal_rows,
+    take_turns,
+)
+
+
+class Diary:
+    """An implementation that writes down when it works."""
+
+    def __init__(self, name: str, diary: list[tuple[str, Any]]) -> None:
+        self.name = name
+        self.diary = diary
+
+    def __call__(self, work: Any) -> Job:
+        """Make a job that answers with its work."""
+
+        def run() -> Any:
+            self.diary.append((self.name, work))
+            return work
+
+        return Job(run, lambda done: np.array([[float(done)]]), 1)
+
+
+def test_everybody_begins_in_turn() -> None:
+    """After the warm-up the one who begins moves on from round to round."""
+    diary: list[tuple[str, Any]] = []
+    makers = [Diary("a", diary), Diary("b", diary)]
+    times = take_turns(makers, [1, 2, 3], warm_up=0, judge=demand_equal)
+    assert "".join(name for name, _ in diary) == "ab" + "ab" + "ba" + "ab"
+    assert [work for _, work in diary] == [0, 0, 1, 1, 2, 2, 3, 3]
+    assert [len(each) for each in times] == [3, 3]
+
+
+def test_the_judge_sees_answers_in_the_order_of_makers() -> None:
+    """Whoever begins, the first answer is the first implementation's."""
+    seen: list[list[float]] = []
+
+    def maker(answer: float) -> Any:
+        return lambda _work: Job(lambda: answer, lambda done: np.array([[done]]), 1)
+
+    def judge(_work: Any, answers: Any) -> None:
+        seen.append([float(answer[0, 0]) for answer in answers])
+
+    take_turns([maker(1.0), maker(2.0), maker(3.0)], [0, 0, 0], warm_up=0, judge=judge)
+    assert seen == [[1.0, 2.0, 3.0]] * 3
+
+
+def test_the_collector_rests_while_the_clock_runs() -> None:
+    """Garbage is collected before, and the collector is as it was after."""
+    states: list[bool] = []
+
+    def maker(_work: Any) -> Job:
+        return Job(lambda: states.append(gc.isenabled()), lambda _done: np.zeros((1, 1)), 1)
+
+    take_turns([maker], [0, 0], warm_up=0, judge=demand_equal)
+    assert states[1:] == [False, False]
+    assert gc.isenabled()
+
+
+def rows(*values: float) -> Answer:
+    """Return one column."""
+    return np.array([[value] for value in values])
+
+
+def test_equality_is_of_bits() -> None:
+    """Zeros of different sign differ, NaN is itself."""
+    same = equal_rows(rows(0.0, math.nan, 1.0), rows(-0.0, math.nan, 1.0))
+    assert same.tolist() == [False, True, True]
+
+
+def test_a_difference_is_named() -> None:
+    """The first query that is answered differently is told with both answers."""
+    with pytest.raises(DisagreementError, match=r"query 1: \[2\.0\] and \[3\.0\]"):
+        demand_equal(None, [rows(1.0, 2.0), rows(1.0, 2.0), rows(1.0, 3.0)])
+
+
+def test_answers_of_different_shape_differ() -> None:
+    """A missing answer is a difference."""
+    with pytest.raises(DisagreementError, match="shape"):
+        demand_equal(None, [rows(1.0), rows(1.0, 2.0)])
+
+
+def test_ratio_is_their_time_over_ours() -> None:
+    """Ratios are taken round by round before they are summarised."""
+    found = comparison([1.0, 2.0, 4.0], [10.0, 10.0, 10.0])
+    assert (found.ratio.middle, found.ours.middle, found.theirs.middle) == (5.0, 2.0, 10.0)
+    assert found.rounds == 3

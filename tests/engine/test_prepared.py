@@ -1,0 +1,45 @@
+"""A query asked again and again: the same answers as asking it once."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import pytest
+from engine_scenes import CELL, R, at, floor_and_wall, mover, world_of
+
+from engine import CollisionCall, Move, PathState, Prepared, QueryError, find_collisions, resolve
+
+MOVE = Move(mover(), at(0.5, 0, R), CELL, start=at(0, 0, 2 * R))
+CALL = CollisionCall(MOVE, path=PathState(step_down=1, step_down_amt=0.5, walk_interp=1.0))
+
+
+def test_a_move_is_answered_each_time_anew() -> None:
+    """Nothing of the last run is left in the next."""
+    world = world_of(floor_and_wall())
+    prepared = Prepared(world, MOVE)
+    first = prepared.run().tobytes()
+    assert first == resolve(world, MOVE).tobytes()
+    assert prepared.run().tobytes() == first
+
+
+def test_a_collision_call_is_answered_as_by_find_collisions() -> None:
+    """The same record."""
+    world = world_of(floor_and_wall())
+    assert Prepared(world, CALL).run().tobytes() == find_collisions(world, CALL).tobytes()
+
+
+def test_the_query_may_be_changed_between_runs() -> None:
+    """The next answer is that of the changed query."""
+    world = world_of(floor_and_wall())
+    prepared = Prepared(world, MOVE)
+    prepared.run()
+    prepared.query["end"][5] = 0.25
+    changed = replace(MOVE, end=at(0.25, 0, R))
+    assert prepared.run().tobytes() == resolve(world, changed).tobytes()
+    assert prepared.result["curr"][5] == 0.25
+
+
+def test_what_cannot_be_asked_is_refused_at_once() -> None:
+    """Before the first run."""
+    with pytest.raises(QueryError, match="begin cell"):
+        Prepared(world_of(floor_and_wall()), replace(MOVE, begin_cell=CELL + 1))
