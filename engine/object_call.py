@@ -11,7 +11,7 @@ import numpy as np
 from engine import constants
 from engine import layout as at
 from engine.errors import QueryError
-from engine.query import Move, PathState, fill_move, fill_path
+from engine.query import Move, PathState, fill_call, fill_path
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -59,11 +59,8 @@ def object_rows(world: World, calls: Sequence[ObjectCall]) -> Rows:
     for index, call in enumerate(calls):
         where = f"call {index}"
         row = rows[index]
-        if call.move.start is None:
-            raise QueryError(f"{where}, start", "a collision call comes from somewhere")
-        fill_move(row, world, call.move, where)
+        fill_call(row, world, call.move, where)
         fill_path(row, call.path, where)
-        row["target_cell"] = row["begin_cell"]
         row["target_kind"] = call.target
         row["target_object"] = _object(world, call, where)
     return rows

@@ -173,16 +173,21 @@ def move_rows(world: World, moves: Sequence[Move]) -> Rows:
     return rows
 
 
+def fill_call(row: Any, world: World, move: Move, where: str) -> None:
+    """Fill in the move of a single call, which is made in the cell where it begins."""
+    if move.start is None:
+        raise QueryError(f"{where}, start", "a collision call comes from somewhere")
+    fill_move(row, world, move, where)
+    row["target_cell"] = row["begin_cell"]
+
+
 def collision_rows(world: World, calls: Sequence[CollisionCall]) -> Rows:
     """Return a row for each call; raises `QueryError` or `PoseError` naming the call."""
     rows = np.zeros(len(calls), dtype=at.QUERY_DTYPE)
     for index, call in enumerate(calls):
         where = f"call {index}"
         row = rows[index]
-        if call.move.start is None:
-            raise QueryError(f"{where}, start", "a collision call comes from somewhere")
-        fill_move(row, world, call.move, where)
-        row["target_cell"] = row["begin_cell"]
+        fill_call(row, world, call.move, where)
         row["target_object"] = _object(world, call, where)
         fill_path(row, call.path, where)
     return rows

@@ -18,6 +18,7 @@ from conformance.scenes.polygons import place
 from conformance.scenes.primitives import make
 from conformance.scenes.records import geometry_from_record
 from conformance.strategies.collisions import transitions
+from conformance.strategies.human import MOVER
 from conformance.strategies.math_queries import mover_queries
 from conformance.strategies.movers import CONTACT, EDGE_SLIDE, ON_WALKABLE
 from conformance.strategies.numbers import EPS, FLAGS, grid, vectors
@@ -31,17 +32,6 @@ if TYPE_CHECKING:
 
 _HALF: Final = 9.0
 """Half the edge of a floor, metres."""
-_RADIUS: Final = 0.48
-_HUMAN: Final = ((0.0, 0.0, 0.48, _RADIUS), (0.0, 0.0, 1.35, _RADIUS))
-_MOVER: Final = {
-    "spheres": _HUMAN,
-    "scale": 1.0,
-    "step_up_height": 0.6,
-    "step_down_height": 1.5,
-    "ethereal": 0,
-    "step_down": 1,
-    "gravity": 1,
-}
 _BEAM_FROM: Final = 1.1
 """Lower edge of a beam: above the feet, in the way of the head; metres."""
 _STATIC_WITH_BSP: Final = 0x10001
@@ -108,7 +98,7 @@ def backs_to_the_wall(draw: st.DrawFn) -> Query:
     record = {
         "op": "transition",
         "cells": [_cell(pose, alley) | {"statics": [static]}],
-        "mover": {**_MOVER, "state": CONTACT | ON_WALKABLE | EDGE_SLIDE},
+        "mover": {**MOVER, "state": CONTACT | ON_WALKABLE | EDGE_SLIDE},
         "from": _standing(pose, (0.0, 0.0, 0.0)),
         "to": _standing(pose, (draw(_ASIDES), draw(_BACKS), 0.0)),
         "begin_cell": pose["cell"],
@@ -126,7 +116,7 @@ def jumps_under_a_beam(draw: st.DrawFn) -> Query:
     record = {
         "op": "walk",
         "cells": [_cell(pose, room)],
-        "mover": {**_MOVER, "state": EDGE_SLIDE},
+        "mover": {**MOVER, "state": EDGE_SLIDE},
         "start": _standing(pose, (0.0, 0.0, draw(_BACKS))),
         "ticks": [
             {"move": [0.0, 0.0, -0.5]},

@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Any, Final
 
 from hypothesis import strategies as st
 
+from conformance.strategies.human import MOVER, RADIUS
 from conformance.strategies.meetings import draw_meeting, draw_probe
 from conformance.strategies.movers import (
     CONTACT,
@@ -30,17 +31,6 @@ if TYPE_CHECKING:
     from conformance.query import Query
     from conformance.scenes.model import Vec3
 
-_HUMAN: Final = ((0.0, 0.0, 0.48, 0.48), (0.0, 0.0, 1.35, 0.48))
-_MOVER: Final = {
-    "spheres": _HUMAN,
-    "scale": 1.0,
-    "step_up_height": 0.6,
-    "step_down_height": 1.5,
-    "ethereal": 0,
-    "step_down": 1,
-    "gravity": 1,
-}
-_RADIUS: Final = 0.48
 _BORDER_SITES: Final = ("border-house", "corner-house")
 _BALLS: Final = grid(0.5, 2.0)
 _LEANS: Final = st.tuples(grid(-0.5, 0.5), grid(-0.5, 0.5))
@@ -107,7 +97,7 @@ def steps_onto_a_drum(draw: st.DrawFn) -> Query:
     thing = _draw_thing(draw, "cylspheres", [0.0, 0.0, 0.0, radius, height])
     origin = thing["pose"]["origin"]
     inside = draw(_INTO)
-    end = along(origin, (0.0, radius + _RADIUS - inside, 0.0), 1.0)
+    end = along(origin, (0.0, radius + RADIUS - inside, 0.0), 1.0)
     start = along(end, (0.0, inside + draw(_INTO), 0.0), 1.0)
     return _object_transition(thing, CONTACT | ON_WALKABLE | EDGE_SLIDE, start, end)
 
@@ -121,7 +111,7 @@ def heads_against_something(draw: st.DrawFn) -> Query:
     thing = _draw_thing(draw, family, shape if family == "spheres" else [*shape, draw(_LAMPS)])
     thing["pose"]["rotation"] = IDENTITY
     away, inside = draw(LEVEL), draw(_INTO)
-    end = along(thing["pose"]["origin"], away, size + _RADIUS - inside)
+    end = along(thing["pose"]["origin"], away, size + RADIUS - inside)
     start = along(end, away, inside + draw(_INTO))
     return _object_transition(thing, draw(_HEAD_STATES), start, end)
 
@@ -166,7 +156,7 @@ def _object_transition(thing: dict[str, Any], state: int, start: Vec3, end: Vec3
         "op": "object_transition",
         "cell": {"id": cell, "pose": thing["pose"] | {"rotation": IDENTITY}, "geometry": None},
         "objects": [thing],
-        "mover": _MOVER | {"state": state},
+        "mover": MOVER | {"state": state},
         "from": {"cell": cell, "origin": start, "rotation": IDENTITY},
         "to": {"cell": cell, "origin": end, "rotation": IDENTITY},
         "seed": {"contact": ground, "last_known": ground} if state & CONTACT else {},
