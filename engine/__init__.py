@@ -28,7 +28,7 @@ from engine.batch import (
     resolve_many,
 )
 from engine.body import Body, body_rows
-from engine.cells import Cell, Portal
+from engine.cells import Cell, Portal, Restriction
 from engine.errors import (
     CrowdedError,
     EngineError,
@@ -37,6 +37,7 @@ from engine.errors import (
     PoseError,
     QueryError,
     RecursionBoundError,
+    UndeterminedError,
     WorldError,
 )
 from engine.geometry import Leaf, Node, Shape
@@ -77,9 +78,11 @@ __all__ = [
     "Prepared",
     "QueryError",
     "RecursionBoundError",
+    "Restriction",
     "Seed",
     "Shape",
     "Target",
+    "UndeterminedError",
     "Weenie",
     "World",
     "WorldError",

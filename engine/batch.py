@@ -8,7 +8,7 @@ import numpy as np
 
 from engine import layout as at
 from engine.body_layout import MAX_RECORDS, STATUS_CROWDED
-from engine.errors import CrowdedError, QueryError, RecursionBoundError
+from engine.errors import CrowdedError, QueryError, RecursionBoundError, UndeterminedError
 from engine.kernels.collisions import collide_many
 from engine.kernels.object_calls import meet_many
 from engine.kernels.resolving import resolve_many as resolve_rows
@@ -42,6 +42,8 @@ def resolve(world: World, move: Move) -> Any:
     ------
     QueryError, PoseError
         If the move cannot be asked about.
+    UndeterminedError
+        If it depends on what is not known of retail.
 
     Notes
     -----
@@ -54,7 +56,8 @@ def resolve_many(world: World, moves: Sequence[Move] | Rows, *, threads: int = 1
     """Move many movers, each as if it were alone; results in the same order.
 
     `moves` are Move objects, or rows of `engine.layout.QUERY_DTYPE` made by `engine.query.move_rows`.
-    `threads` share them, with the same results for any number. See `resolve`.
+    `threads` share them, with the same results for any number. An `UndeterminedError` is raised after all
+    have been answered, and holds the answers. See `resolve`.
     """
     rows = moves if isinstance(moves, np.ndarray) else move_rows(world, moves)
     return _run(resolve_rows, world, rows, threads)
@@ -72,6 +75,8 @@ def find_collisions(world: World, call: CollisionCall) -> Any:
     ------
     QueryError, PoseError
         If it cannot be asked about.
+    UndeterminedError
+        If it depends on what is not known of retail.
 
     Notes
     -----
@@ -102,6 +107,8 @@ def find_object_collisions(world: World, call: ObjectCall) -> Any:
     ------
     QueryError, PoseError
         If it cannot be asked about.
+    UndeterminedError
+        If it depends on what is not known of retail.
 
     Notes
     -----
@@ -134,23 +141,30 @@ def _run(kernel: Callable[..., None], world: World, rows: Rows, threads: int) ->
         run(world.floats, world.ints, world.new_row(), queries[part], answers[part])
 
     in_parts(work, len(rows), threads)
-    check_status(results["status"])
+    check_status(results["status"], results)
     return results
 
 
-def check_status(status: Any) -> None:
+def check_status(status: Any, results: Rows | None = None) -> None:
     """Raise the error that the status of any query stands for.
 
     Parameters
     ----------
     status : array of float
         ``status`` of result rows.
+    results : records, optional
+        Those rows, for an error that leaves the others valid.
 
     Raises
     ------
-    CrowdedError, RecursionBoundError
+    CrowdedError, RecursionBoundError, UndeterminedError
+        The last only if there is none of the others.
     """
-    for index in np.flatnonzero(status != at.STATUS_OK):
+    failed = np.flatnonzero(status != at.STATUS_OK)
+    for index in failed:
         if status[index] == STATUS_CROWDED:
             raise CrowdedError(f"body {index} has touched more than {MAX_RECORDS} objects within a second")
-        raise RecursionBoundError(f"query {index}: status {int(status[index])}")
+        if status[index] != at.STATUS_UNDETERMINED:
+            raise RecursionBoundError(f"query {index}: status {int(status[index])}")
+    if len(failed):
+        raise UndeterminedError(int(failed[0]), results)

@@ -62,6 +62,9 @@ class Body:
     weenie_bits : int or None
         ObjectInfo bits that its game object adds: 0x80 impenetrable, 0x100 player, 0x800 and 0x1000
         player killers. None: it has no game object.
+    bypasses_restrictions : bool
+        Its game object lets it into every cell; one that does not, and is a player, enters a restricted
+        cell only where the cell's `Restriction` admits its id.
     colliding_with_environment : bool
         It is known to touch the environment, so that this is not reported again.
     tracks_objects : bool
@@ -92,6 +95,7 @@ class Body:
     has_movement_manager: bool = False
     free_heading: bool = False
     weenie_bits: int | None = None
+    bypasses_restrictions: bool = False
     colliding_with_environment: bool = False
     tracks_objects: bool = True
     has_parent: bool = False
@@ -112,6 +116,7 @@ _EXACT = (
     "transient_state",
     "has_movement_manager",
     "free_heading",
+    "bypasses_restrictions",
     "colliding_with_environment",
     "tracks_objects",
     "has_parent",

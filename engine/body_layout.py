@@ -38,6 +38,8 @@ B_FREE_HEADING: Final = _row.field("free_heading")
 B_HAS_WEENIE: Final = _row.field("has_weenie")
 B_WEENIE_BITS: Final = _row.field("weenie_bits")
 """ObjectInfo bits that its game object adds (OI-4)."""
+B_BYPASSES_RESTRICTIONS: Final = _row.field("bypasses_restrictions")
+"""Whether its game object may enter every cell (09, 3.1)."""
 B_TRACKS_OBJECTS: Final = _row.field("tracks_objects")
 """Whether it takes notice of the objects that it touches (HC-2)."""
 

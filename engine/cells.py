@@ -1,4 +1,4 @@
-"""Environment cells and their portals, given as plain data (09)."""
+"""Environment cells, their portals, and who may enter, given as plain data (09)."""
 
 from __future__ import annotations
 
@@ -6,7 +6,7 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
-    from collections.abc import Sequence
+    from collections.abc import Collection, Sequence
 
     from engine.geometry import Shape
     from engine.objects import Obstacle
@@ -31,6 +31,25 @@ class Portal:
     other: int | None
     polygon: Sequence[Sequence[float]] | None = None
     side: int = 0
+
+
+@dataclass(frozen=True, slots=True)
+class Restriction:
+    """What keeps players out of a cell, as a house does (09, 3.1).
+
+    It is asked about movers that are `Mover.restricted` players; others enter as they like.
+
+    Attributes
+    ----------
+    admits : collection of int
+        Object ids of the movers that may enter.
+    is_known : bool
+        Whether what restricts the cell is in the world and has a game object. If not, nobody is admitted,
+        and a land cell doesn't answer with a collision normal.
+    """
+
+    admits: Collection[int] = ()
+    is_known: bool = True
 
 
 @dataclass(frozen=True, slots=True, eq=False)

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from typing import Any
+
 
 class EngineError(Exception):
     """Base of everything that the engine raises on purpose."""
@@ -42,6 +44,27 @@ class QueryError(InputError):
 
 class CrowdedError(EngineError):
     """A body has touched more objects within a second than it can remember."""
+
+
+class UndeterminedError(EngineError):
+    """A query needed what the specification of retail does not know (07, 11).
+
+    Attributes
+    ----------
+    index : int
+        Which query or body it was; the first, if there are several.
+    results : array or None
+        The answers to all queries of a batch; the ``status`` of each tells whether it is one. None where
+        bodies ticked: their rows hold them.
+    """
+
+    def __init__(self, index: int, results: Any = None) -> None:
+        super().__init__(
+            f"query {index}: retail's answer is not known: "
+            "a step down onto a sphere that sphere 0 passes beside (07 4.6, 07 11)"
+        )
+        self.index = index
+        self.results = results
 
 
 class RecursionBoundError(EngineError, RuntimeError):

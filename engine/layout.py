@@ -82,6 +82,8 @@ MOVER_MISSILE: Final = _row.field("mover_missile")
 """The mover object's missile bit (08, 2; 10, 7)."""
 TARGET_ID: Final = _row.field("target_id")
 """Id of the object that a missile is meant for (08, 2)."""
+MOVER_RESTRICTED: Final = _row.field("mover_restricted")
+"""Whether the mover has a game object that can't bypass entry restrictions (09, 3.1)."""
 
 # --- SPHEREPATH (04, 2.3) --------------------------------------------------------------------------
 NUM_SPHERE: Final = _row.field("num_sphere")
@@ -202,6 +204,7 @@ Q_GRAVITY: Final = _query.field("gravity")
 Q_MOVER_ID: Final = _query.field("mover_id")
 Q_MOVER_MISSILE: Final = _query.field("mover_missile")
 Q_TARGET_ID: Final = _query.field("target_id")
+Q_MOVER_RESTRICTED: Final = _query.field("mover_restricted")
 Q_HAS_START: Final = _query.field("has_start")
 Q_START: Final = _query.field("start", POSE_SIZE)
 Q_END: Final = _query.field("end", POSE_SIZE)
@@ -277,6 +280,8 @@ NO_POLYGON: Final = frozen(0)
 STATUS_OK: Final = frozen(0)
 STATUS_RECURSION: Final = frozen(1)
 """An inner insert reached what retail only reaches from the outermost one (05, 10)."""
+STATUS_UNDETERMINED: Final = frozen(2)
+"""A root was NaN where the specification doesn't know which way retail goes (07, 11)."""
 
 # --- the world's arrays ----------------------------------------------------------------------------
 # floats: node k at NODE_FLOATS * k (splitting plane, bounding sphere), then polygon, plane, cell, part,
@@ -339,10 +344,12 @@ FIRST_NODE: Final = frozen(math.ceil(_header.size / NODE_INTS))
 
 CELL_FLOATS: Final = POSITION_SIZE + 1
 CELL_ID: Final = POSITION_SIZE
-CELL_INTS: Final = frozen(9)
+CELL_INTS: Final = frozen(10)
 CELL_OBJECTS: Final = frozen(0)
 """Where the list of the cell's objects begins, as indices; those with a parent are not in it."""
 CELL_OBJECT_COUNT: Final = frozen(1)
+CELL_RESTRICTION: Final = frozen(9)
+"""Where the record begins of what restricts the cell, or `NO_RESTRICTION`."""
 # An environment cell:
 CELL_TREE: Final = frozen(2)
 CELL_PLANES: Final = frozen(3)
@@ -362,6 +369,13 @@ LAND_BLOCK_WATER: Final = frozen(5)
 """The water type of its whole block."""
 LAND_WET_CORNERS: Final = frozen(6)
 """Bits: 1 south-west, 2 north-west, 4 south-east, 8 north-east corner is water."""
+
+RESTRICTION_KNOWN: Final = frozen(0)
+"""Whether what restricts the cell is there and can be asked."""
+RESTRICTION_COUNT: Final = frozen(1)
+"""How many movers it admits; their ids follow."""
+RESTRICTION_IDS: Final = frozen(2)
+NO_RESTRICTION: Final = frozen(0)
 
 NO_PLANES: Final = frozen(-1)
 """Containment plane count of a cell that contains every point."""

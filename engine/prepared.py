@@ -75,7 +75,7 @@ class Prepared:
 
         Raises
         ------
-        RecursionBoundError
+        RecursionBoundError, UndeterminedError
             As `engine.resolve`.
         """
         runnable(self._kernel)(*self._arguments)

@@ -51,6 +51,9 @@ class Mover:
         A missile: ethereal game objects, and creatures that are not its target, are not in its way.
     target_id : int
         Id of the object that a missile is meant for; 0 for none.
+    restricted : bool
+        Has a game object that can't bypass entry restrictions: as a player it enters a restricted cell
+        only where the cell's `Restriction` admits its id.
     """
 
     spheres: Sequence[Sequence[float]]
@@ -64,6 +67,7 @@ class Mover:
     id: int = 0
     missile: bool = False
     target_id: int = 0
+    restricted: bool = False
 
 
 @dataclass(frozen=True, slots=True)
@@ -247,6 +251,7 @@ def _fill_mover(row: Any, mover: Mover, where: str) -> None:
     row["mover_id"] = _object_id(mover.id, f"{where}, id")
     row["mover_missile"] = mover.missile
     row["target_id"] = _object_id(mover.target_id, f"{where}, target id")
+    row["mover_restricted"] = mover.restricted
 
 
 def _fill_seed(row: Any, seed: Seed, where: str) -> None:

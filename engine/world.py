@@ -10,6 +10,7 @@ from engine import layout as at
 from engine.compiling.cells import CellNumbers, ObjectLists, write_buildings, write_cells
 from engine.compiling.ids import id_table
 from engine.compiling.objects import Parts, write_objects
+from engine.compiling.restrictions import write_restrictions
 from engine.compiling.storage import Storage
 from engine.errors import WorldError
 from engine.registration import register
@@ -17,7 +18,7 @@ from engine.registration import register
 if TYPE_CHECKING:
     from collections.abc import Iterator, Mapping, Sequence
 
-    from engine.cells import Cell
+    from engine.cells import Cell, Restriction
     from engine.geometry import Shape
     from engine.kernels.types import Array, Ints
     from engine.landscape import Building, LandBlock
@@ -43,6 +44,8 @@ class World:
     objects : sequence of Obstacle, optional
         What is not listed yet, in the order in which it enters the world: it is registered in the cells
         that it reaches, as retail does (`engine.registration`), after all that is listed.
+    restrictions : mapping of int to Restriction, optional
+        Who may enter a cell, environment or land, by its id; the others are open to everyone.
 
     Attributes
     ----------
@@ -69,6 +72,7 @@ class World:
         buildings: Sequence[Building] = (),
         shadows: Mapping[int, Sequence[Obstacle]] | None = None,
         objects: Sequence[Obstacle] = (),
+        restrictions: Mapping[int, Restriction] | None = None,
     ) -> None:
         numbers = CellNumbers(cells, landblocks)
         found = register(World(cells, landblocks, buildings), objects) if objects else {}
@@ -81,7 +85,8 @@ class World:
         header, houses = write_buildings(storage, parts, numbers, buildings)
         header |= write_objects(storage, parts, lists.obstacles, lists.where)
         header |= parts.write(storage)
-        header |= write_cells(storage, numbers, lists.write(storage), cells, landblocks, houses)
+        restricted = write_restrictions(storage, numbers, restrictions or {})
+        header |= write_cells(storage, numbers, lists.write(storage), restricted, cells, landblocks, houses)
         header |= _write_ids(storage, numbers.keys())
         header |= self._rows(len(cells) + len(numbers.unloaded))
         self.floats, self.ints = storage.finish(header)

@@ -19,6 +19,7 @@ from conformance.candidates.engine_ops import (
     world_ops,
 )
 from conformance.candidates.table import TableCandidate
+from engine.errors import UndeterminedError
 from engine.tracing import recording
 
 if TYPE_CHECKING:
@@ -51,7 +52,7 @@ class EngineCandidate(TableCandidate):
     name = "engine"
     operations = OPS
     missing = "not in the engine yet"
-    unable = ()
+    unable = (UndeterminedError,)
 
     def recording(self, topics: Collection[str]) -> AbstractContextManager[WriteTrace]:
         """Run the kernels in the block interpreted, and record what their transitions write."""

@@ -141,13 +141,15 @@ def write_cells(
     storage: Storage,
     numbers: CellNumbers,
     lists: Ints,
+    restrictions: Ints,
     cells: Sequence[Cell],
     blocks: Sequence[LandBlock],
     houses: Mapping[int, int],
 ) -> dict[int, int]:
     """Write the records of all cells; return what the header says of them.
 
-    `lists`: of each cell its object list; `houses`: the building of each land cell that has one.
+    `lists`: of each cell its object list; `restrictions`: where of each the record of what restricts it
+    begins; `houses`: the building of each land cell that has one.
     """
     names = [f"cell {cell.id:#010x}, pose" for cell in cells]
     indoors = np.empty((len(cells), at.CELL_FLOATS), dtype=np.float64)
@@ -156,9 +158,10 @@ def write_cells(
     floats = [indoors, *(cell_positions(block.id) for block in blocks)]
     ints = np.zeros((len(numbers.ids), at.CELL_INTS), dtype=np.int64)
     ints[:, at.CELL_OBJECTS : at.CELL_OBJECT_COUNT + 1] = lists
-    ints[: len(cells), at.CELL_TREE :] = np.array(
+    ints[:, at.CELL_RESTRICTION] = restrictions
+    ints[: len(cells), at.CELL_TREE : at.CELL_RESTRICTION] = np.array(
         [_cell_ints(storage, numbers, cell) for cell in cells], dtype=np.int64
-    ).reshape(len(cells), at.CELL_INTS - at.CELL_TREE)
+    ).reshape(len(cells), at.CELL_RESTRICTION - at.CELL_TREE)
     ints[len(cells) :, at.LAND_BUILDING] = at.NO_BUILDING
     for index, house in houses.items():
         ints[index, at.LAND_BUILDING] = house

@@ -1,8 +1,8 @@
 """What is in a cell (09, 3): its environment, its building, its objects.
 
 Environment and building are numbered 0 and 1: what is fixed in the cell. A test of either is in two
-halves, because the answer may be that of a step up (`engine.kernels.bsp_tree`). No cell keeps anybody
-out: CObjCell::check_entry_restrictions (09, 3.1) would ask the game, and answers OK.
+halves, because the answer may be that of a step up (`engine.kernels.bsp_tree`). Whether the mover may
+enter at all is asked first (`engine.kernels.restrictions`).
 """
 
 from __future__ import annotations

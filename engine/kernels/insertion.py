@@ -21,6 +21,7 @@ from engine.kernels.edge_slide import keep_contact
 from engine.kernels.objects import accept_object, begin_object, test_object_shape
 from engine.kernels.path import restore_check_pos
 from engine.kernels.probing import enter_cell, insert_once, stays_in_contact
+from engine.kernels.restrictions import check_entry_restrictions, is_restricted
 from engine.kernels.sphere import slide_sphere
 from engine.kernels.stepping import (
     check_walkable,
@@ -102,8 +103,10 @@ def find_obj_collisions(wf: Array, wi: Ints, s: Array, cell: int) -> int:
 def find_in_cell(wf: Array, wi: Ints, s: Array, cell: int) -> int:
     """Test the mover against a cell.
 
-    retail: CEnvCell::find_collisions 0x0052C100, CLandCell::find_collisions 0x00532D60, 09 3.2-7
+    retail: CEnvCell::find_collisions 0x0052C100, CLandCell::find_collisions 0x00532D60, 09 3.1-7
     """
+    if is_restricted(wi, cell) and check_entry_restrictions(wf, wi, s, cell) != OK:
+        return COLLIDED
     for fixed in range(fixed_count(wi, cell)):
         ts = test_fixed(wf, wi, s, cell, fixed)
         if ts == NEEDS_STEP_UP:

@@ -25,6 +25,7 @@ from engine.kernels.compile import inlined, kernel
 from engine.kernels.land_defs import outside_cell
 from engine.kernels.objects import accept_object, begin_object, test_object_shape
 from engine.kernels.path import adjust_check_pos, set_check_pos
+from engine.kernels.restrictions import check_entry_restrictions, is_restricted
 from engine.layout import (
     CELL_ARRAY_VALID,
     CHECK_CELL,
@@ -77,8 +78,10 @@ def _probe_object(wf: Array, wi: Ints, s: Array, thing: int) -> int:
 def _probe_cell(wf: Array, wi: Ints, s: Array, cell: int) -> int:
     """Test the mover against a cell.
 
-    retail: CEnvCell::find_collisions 0x0052C100, CLandCell::find_collisions 0x00532D60, 09 3.2-7
+    retail: CEnvCell::find_collisions 0x0052C100, CLandCell::find_collisions 0x00532D60, 09 3.1-7
     """
+    if is_restricted(wi, cell) and check_entry_restrictions(wf, wi, s, cell) != OK:
+        return COLLIDED
     for fixed in range(fixed_count(wi, cell)):
         ts = _without_step_up(s, test_fixed(wf, wi, s, cell, fixed))
         accept_fixed(wi, s, cell, fixed, ts)

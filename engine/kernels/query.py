@@ -86,6 +86,7 @@ def _init_object(s: Array, q: Array) -> None:
     s[at.MOVER_ID] = q[at.Q_MOVER_ID]
     s[at.MOVER_MISSILE] = q[at.Q_MOVER_MISSILE]
     s[at.TARGET_ID] = q[at.Q_TARGET_ID]
+    s[at.MOVER_RESTRICTED] = q[at.Q_MOVER_RESTRICTED]
 
 
 @inlined

@@ -46,6 +46,8 @@ from engine.layout import (
     NUM_SPHERE,
     OI_STATE,
     RADIUS,
+    STATUS,
+    STATUS_UNDETERMINED,
     STEP_DOWN,
     STEP_DOWN_AMT,
     WALK_INTERP,
@@ -144,7 +146,9 @@ def _respond(s: Array, x: float, y: float, z: float, radsum: float, hit: int) ->
 
 @kernel
 def _step_sphere_down(s: Array, x: float, y: float, z: float, r: float, radsum: float) -> int:
-    """Put sphere 0 on top, also where only sphere 1 overlaps; a root that is NaN is a collision.
+    """Put sphere 0 on top, also where only sphere 1 overlaps.
+
+    Beside the sphere there is no top, and the root is NaN: what retail does then is not known (07, 11).
 
     retail: CSphere::step_sphere_down 0x00536D20, 07 4
     """
@@ -160,9 +164,12 @@ def _step_sphere_down(s: Array, x: float, y: float, z: float, r: float, radsum: 
         return COLLIDED
     rs = radsum + EPS
     rs32 = f32(rs)
-    t = (math.sqrt(rs * rs32 - (xx + yy)) - dz) / sd32
+    root = math.sqrt(rs * rs32 - (xx + yy))
+    t = (root - dz) / sd32
     w = (1.0 - t) * s[WALK_INTERP]
     if not within_step(s, w):
+        if math.isnan(root):
+            s[STATUS] = STATUS_UNDETERMINED
         return COLLIDED
     rise = f32(sd32 * t)
     nz = rise + dz

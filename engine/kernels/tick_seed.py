@@ -5,10 +5,12 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from engine.body_layout import (
+    B_BYPASSES_RESTRICTIONS,
     B_CELL,
     B_CONTACT_CELL_ID,
     B_CONTACT_PLANE,
     B_FREE_HEADING,
+    B_HAS_WEENIE,
     B_ID,
     B_NUM_SPHERE,
     B_POSITION,
@@ -71,6 +73,7 @@ from engine.layout import (
     MOVER_GRAVITY,
     MOVER_ID,
     MOVER_MISSILE,
+    MOVER_RESTRICTED,
     NUM_SPHERE,
     OI_ETHEREAL,
     OI_STATE,
@@ -173,6 +176,7 @@ def _init_object(s: Array, b: Array, flags: int) -> None:
     s[MOVER_GRAVITY] = 1.0 if has_bit(b, B_STATE, GRAVITY_PS) else 0.0
     s[MOVER_ID] = b[B_ID]
     s[MOVER_MISSILE] = 1.0 if has_bit(b, B_STATE, MISSILE) else 0.0
+    s[MOVER_RESTRICTED] = 0.0 if b[B_BYPASSES_RESTRICTIONS] != 0.0 else b[B_HAS_WEENIE]
 
 
 @inlined

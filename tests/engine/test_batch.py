@@ -17,6 +17,7 @@ from engine import (
     QueryError,
     RecursionBoundError,
     Seed,
+    UndeterminedError,
     find_collisions,
     find_collisions_many,
     resolve,
@@ -24,7 +25,7 @@ from engine import (
 )
 from engine.batch import check_status
 from engine.constants import ADJUSTED, FLOOR_Z, OK
-from engine.layout import NO_CELL, RESULT_SIZE, STATUS_RECURSION
+from engine.layout import NO_CELL, RESULT_SIZE, STATUS_RECURSION, STATUS_UNDETERMINED
 from engine.query import move_rows
 
 STEP = PathState(step_down=1, step_down_amt=0.5, walk_interp=1.0, walkable_allowance=FLOOR_Z)
@@ -127,3 +128,11 @@ def test_a_violated_bound_is_an_error() -> None:
     check_status(np.zeros(3))
     with pytest.raises(RecursionBoundError, match="query 1"):
         check_status(np.array([0.0, STATUS_RECURSION]))
+
+
+def test_an_unknown_answer_does_not_hide_a_violated_bound() -> None:
+    """What is wrong with the engine is told before what is not known of retail."""
+    with pytest.raises(RecursionBoundError, match="query 1"):
+        check_status(np.array([STATUS_UNDETERMINED, STATUS_RECURSION]))
+    with pytest.raises(UndeterminedError, match="query 0"):
+        check_status(np.array([STATUS_UNDETERMINED, 0.0]))

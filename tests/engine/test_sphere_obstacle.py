@@ -23,9 +23,21 @@ from engine_obstacles import (
     origin,
     world,
 )
-from engine_scenes import CELL
+from engine_scenes import CELL, at
 
-from engine import Move, ObjectCall, Obstacle, PathState, Pose, Target, Weenie, find_object_collisions
+from engine import (
+    Move,
+    ObjectCall,
+    Obstacle,
+    PathState,
+    Pose,
+    Target,
+    UndeterminedError,
+    Weenie,
+    find_object_collisions,
+    find_object_collisions_many,
+)
+from engine.layout import STATUS_OK, STATUS_UNDETERMINED
 
 BALL = Obstacle(HERE, spheres=[(0.0, 0.0, 0.0, 1.0)])
 CREATURE = replace(BALL, weenie=Weenie(creature=True))
@@ -140,11 +152,33 @@ def test_only_the_second_sphere_reaches_down() -> None:
     assert answer(call(BALL, mover((0, 0, 0)), (0, 0, 3), (0, 0, 1.75), **path)) == "OK"
 
 
-def test_a_root_that_is_not_a_number_is_a_collision() -> None:
+def test_a_landing_whose_root_is_not_a_number_is_a_collision() -> None:
     """The first sphere passes by at 2 metres, the second one overlaps (07 11)."""
     two = mover((0, 0, 0), (-2, 0, 0))
-    assert answer(call(BALL, two, (2, 0, 3), (2, 0, 1), step_down=1, step_down_amt=0.5)) == "COLLIDED"
     assert answer(call(BALL, two, (2, 0, 3), (2, 0, 1), collide=1)) == "COLLIDED"
+
+
+def test_a_step_down_whose_root_is_not_a_number_is_refused() -> None:
+    """07 4.6 and 11: nobody knows what retail does beside the sphere; a little nearer the root is 0.17."""
+    two = mover((0, 0, 0), (-2, 0, 0))
+    path = {"step_down": 1.0, "step_down_amt": 0.5}
+    with pytest.raises(UndeterminedError, match=r"query 0: .*not known: a step down .*07 4\.6"):
+        call(BALL, two, (2, 0, 3), (2, 0, 1), **path)
+    assert answer(call(BALL, two, (1.49, 0, 3), (1.49, 0, 1), **path)) == "COLLIDED"
+
+
+def test_one_refused_call_leaves_the_other_answers() -> None:
+    """The error holds the answers of the whole batch; a status says which is none."""
+    things = world(BALL)
+    two = mover((0, 0, 0), (-2, 0, 0))
+    path = PathState(step_down=1, step_down_amt=0.5, walk_interp=1.0, walkable_allowance=FLOOR_Z)
+    ends = [(0, 0, 1.25), (2, 0, 1), (0, 0, 1.25)]
+    calls = [ObjectCall(Move(two, at(*end), CELL, start=at(0, 0, 3)), Target.OBJECT, 0, path) for end in ends]
+    with pytest.raises(UndeterminedError) as caught:
+        find_object_collisions_many(things, calls)
+    assert caught.value.index == 1
+    assert caught.value.results["status"].tolist() == [STATUS_OK, STATUS_UNDETERMINED, STATUS_OK]
+    assert [answer(caught.value.results[i]) for i in (0, 2)] == ["ADJUSTED", "ADJUSTED"]
 
 
 def test_nobody_stands_on_a_creature() -> None:
