@@ -44,11 +44,13 @@ from engine.geometry import Leaf, Node, Shape
 from engine.landscape import Building, BuildingPortal, LandBlock
 from engine.object_call import ObjectCall, Target
 from engine.objects import Obstacle, Part, Weenie
+from engine.placing import Placement, PlacementResult, place
 from engine.pose import Pose
 from engine.prepared import Prepared
 from engine.query import CollisionCall, ContactPlane, Move, Mover, PathState, Seed
-from engine.step import set_local_velocity, set_velocity, step, step_many, update_many
+from engine.step import set_elasticity, set_local_velocity, set_velocity, step, step_many, update_many
 from engine.trees import step_down_many, strike_many
+from engine.visible import find_visible_child_cell
 from engine.warm import warmup
 from engine.world import World
 
@@ -72,6 +74,8 @@ __all__ = [
     "Obstacle",
     "Part",
     "PathState",
+    "Placement",
+    "PlacementResult",
     "Portal",
     "Pose",
     "PoseError",
@@ -91,8 +95,11 @@ __all__ = [
     "find_collisions_many",
     "find_object_collisions",
     "find_object_collisions_many",
+    "find_visible_child_cell",
+    "place",
     "resolve",
     "resolve_many",
+    "set_elasticity",
     "set_local_velocity",
     "set_velocity",
     "step",

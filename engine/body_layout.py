@@ -9,7 +9,7 @@ from __future__ import annotations
 from typing import Final
 
 from engine.constants import frozen
-from engine.layout import MAX_SPHERES, PLANE_SIZE, POSITION_SIZE, SPHERE_SIZE, VECTOR_SIZE, Row
+from engine.layout import MAX_SPHERES, PLANE_SIZE, POSE_SIZE, POSITION_SIZE, SPHERE_SIZE, VECTOR_SIZE, Row
 
 _row = Row()
 
@@ -100,6 +100,31 @@ B_RECORDS: Final = _row.field("records", MAX_RECORDS, RECORD_SIZE)
 
 BODY_SIZE: Final = frozen(_row.size)
 BODY_DTYPE: Final = _row.dtype()
+
+# --- where a body is to be put down (06, 10) --------------------------------------------------------
+_placement = Row()
+
+P_POSE: Final = _placement.field("pose", POSE_SIZE)
+"""Where; takes the origin where the body is found room for, if it must not slide."""
+P_CELL: Final = _placement.field("cell")
+"""Index of the cell that this is in, or `engine.layout.NO_CELL`."""
+P_SLIDE: Final = _placement.field("slide")
+"""Whether it may end somewhere near."""
+P_DO_NOT_LOAD: Final = _placement.field("do_not_load_cells")
+"""Whether only cells count that are visible from that one."""
+P_RESULT: Final = _placement.field("result")
+"""What came of it: one of the numbers below."""
+
+PLACEMENT_SIZE: Final = frozen(_placement.size)
+PLACEMENT_DTYPE: Final = _placement.dtype()
+
+PLACED: Final = frozen(0)
+NO_VALID_POSITION: Final = frozen(2)
+"""There is no room."""
+PLACED_IN_NO_CELL: Final = frozen(3)
+"""There is room, but outside of all cells."""
+PLACEMENT_COLLIDED: Final = frozen(4)
+"""There is no room, and a game object was told what is in the way."""
 
 OUTCOMES: Final = ("inactive", "nosphere", "still", "failed", "moved", "lost")
 INACTIVE: Final = frozen(0)

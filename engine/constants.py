@@ -109,6 +109,8 @@ TARGET_OBJECTS: Final = frozen(2)
 """All objects of a cell."""
 TARGET_CELL: Final = frozen(3)
 """A cell's environment, then its objects."""
+TARGET_ENTRY: Final = frozen(4)
+"""Nothing: whether the mover may enter a cell."""
 
 # What an obstacle's game object answers (08, 1).
 WEENIE_PRESENT: Final = frozen(0x1)
@@ -159,6 +161,10 @@ DEFAULT_FRICTION: Final = 0.949999988079071
 """Part of its speed that an object loses in a second of sliding, float32 of 0.95 (06, 1)."""
 DEFAULT_ELASTICITY: Final = 0.05000000074505806
 """Part of its speed that an object keeps in a bounce, float32 of 0.05 (06, 1)."""
+PLACEMENT_SLACK: Final = 0.05000000074505806
+"""How far to the east or north a body may be put that must not slide, float32 of 0.05; metres (SP-5)."""
+MAX_ELASTICITY: Final = 0.10000000149011612
+"""Largest part of its speed that an object keeps in a bounce, float32 of 0.1 (06, 1)."""
 DUMMY_RADIUS: Final = 0.10000000149011612
 """Radius, and height of the centre, of a mover without spheres, float32 of 0.1; metres (SEED-4)."""
 MIN_QUANTUM: Final = 1.0 / 30.0

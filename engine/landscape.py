@@ -25,11 +25,15 @@ class LandBlock:
     terrain : sequence of 81 int, or None
         Terrain words of the same vertices: bits 2 to 6 are the terrain type, 16 to 20 of which are water.
         None: all 0.
+    side_cell_count : int
+        Land cells along an edge: 8. A block that is loaded with less detail (4, 2 or 1) is as one that is not
+        loaded (10, 4).
     """
 
     id: int
     heights: Sequence[float]
     terrain: Sequence[int] | None = None
+    side_cell_count: int = 8
 
 
 @dataclass(frozen=True, slots=True)
@@ -52,7 +56,8 @@ class BuildingPortal:
 class Building:
     """The outside of a house, in the land cell under its origin.
 
-    Retail drops a building that is in no land cell of the world, and any but the first in a cell.
+    Retail drops a building that is in no land cell of the block that lists it, and any but the first in a
+    cell.
 
     Attributes
     ----------
@@ -62,8 +67,11 @@ class Building:
         Geometry of its part 0, the only one that is collided with.
     portals : sequence of BuildingPortal
         In the order in which they are looked at.
+    block : int or None
+        The high 16 bits of the ids of the block that lists it; None: of the one under its origin.
     """
 
     pose: Pose
     shape: Shape | None
     portals: Sequence[BuildingPortal] = ()
+    block: int | None = None

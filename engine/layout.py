@@ -188,6 +188,7 @@ STATE_DTYPE: Final = _row.dtype()
 # --- a query: what the caller sets -----------------------------------------------------------------
 POSE_SIZE: Final = frozen(8)
 """A pose: cell id, quaternion w x y z, origin x y z; a position without its matrix."""
+POSE_ORIGIN: Final = frozen(5)
 
 _query = Row()
 

@@ -31,6 +31,8 @@ class Target(IntEnum):
     """All objects of the cell, in order."""
     CELL = int(constants.TARGET_CELL)
     """The cell's environment, then its objects."""
+    ENTRY = int(constants.TARGET_ENTRY)
+    """Nothing: whether the mover may enter the cell at all."""
 
 
 @dataclass(frozen=True, slots=True)

@@ -21,7 +21,7 @@ class Part:
     Attributes
     ----------
     shape : Shape or None
-        Its geometry, unscaled; a part without one collides with nothing.
+        Its geometry, unscaled; a part without one collides with nothing, and is found nowhere.
     pose : Pose or None
         Where it is, in its landblock; None: where the object is.
     scale : float or None
@@ -29,12 +29,20 @@ class Part:
     always_flat : bool
         Even its most detailed picture is flat: its sphere counts, not its box, for the land cells in
         which it is found (09, 6.5.4).
+    has_physics : bool
+        Whether it has a physics BSP. Without one it collides with nothing; what its object is found by is
+        then the box of its vertices and the `drawing_sphere`.
+    drawing_sphere : sequence of float or None
+        Centre x, y, z and radius, in its own frame, before `scale`: bounds it if there is no physics BSP.
+        Without either it reaches through no portal (09, 4.3.1).
     """
 
     shape: Shape | None
     pose: Pose | None = None
     scale: float | None = None
     always_flat: bool = False
+    has_physics: bool = True
+    drawing_sphere: Sequence[float] | None = None
 
 
 @dataclass(frozen=True, slots=True)

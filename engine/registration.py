@@ -23,6 +23,7 @@ from engine.pose import position_rows
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
+    from engine.geometry import Shape
     from engine.kernels.types import Array
     from engine.objects import Obstacle, Part
     from engine.pose import Pose
@@ -32,6 +33,8 @@ MAX_CYLSPHERES: Final = 10
 """How many of an object's cylspheres are looked at (09, 5.4)."""
 _DUMMY_SPHERE: Final = (0.0, 0.0, DUMMY_RADIUS, DUMMY_RADIUS)
 """Stands for a sorting sphere that an object does not have (08, 9.2)."""
+_NO_SPHERE: Final = np.array((0.0, 0.0, 0.0, -1.0))
+"""Stands for the bounding sphere of a part that has none (`engine.kernels.registration.REACH_SPHERE`)."""
 
 
 class Registrar:
@@ -177,9 +180,9 @@ class _Parts:
         poses: list[Pose] = [pose for pose, _, _ in placed]
         records = np.zeros((len(placed), int(REACH_SIZE)), dtype=np.float64)
         records[:, : at.POSITION_SIZE] = position_rows(poses, [f"object {i}, part" for _, _, i in placed])
-        for record, (_, part, _) in zip(records, placed, strict=True):
+        for record, (_, part, index) in zip(records, placed, strict=True):
             if part.shape is not None:
-                record[REACH_SPHERE:REACH_BOX] = part.shape.node_floats[0, at.NODE_SPHERE :]
+                record[REACH_SPHERE:REACH_BOX] = _bounding_sphere(part, part.shape, f"object {index}, part")
                 record[REACH_BOX:REACH_FLAT] = part.shape.bounds
                 record[REACH_FLAT] = part.always_flat
         self._numbers: Final = records.ravel()
@@ -187,6 +190,16 @@ class _Parts:
     def of(self, index: int) -> tuple[Array, int, int]:
         """Return where an object's parts are: array, offset of the first, number."""
         return self._numbers, self._firsts[index], self._counts[index]
+
+
+def _bounding_sphere(part: Part, shape: Shape, where: str) -> Array:
+    """Return what bounds a part: its tree's sphere, its drawing sphere, or a negative radius (09, 4.3.1)."""
+    if part.has_physics:
+        sphere: Array = shape.node_floats[0, at.NODE_SPHERE :]
+        return sphere
+    if part.drawing_sphere is None:
+        return _NO_SPHERE
+    return float32_array(part.drawing_sphere, (int(at.SPHERE_SIZE),), f"{where}, drawing sphere", WorldError)
 
 
 def _parts_of(thing: Obstacle) -> list[Part]:

@@ -10,7 +10,7 @@ import numpy as np
 from engine.batch import check_status
 from engine.body import Body, body_rows, rows_as_numbers
 from engine.body_layout import BODY_DTYPE
-from engine.constants import CHECK_ETHEREAL_TS
+from engine.constants import CHECK_ETHEREAL_TS, MAX_ELASTICITY
 from engine.errors import QueryError
 from engine.float32 import float32_array
 from engine.kernels import tick, tick_gates, tick_velocity
@@ -155,6 +155,23 @@ def set_local_velocity(rows: Rows, velocities: npt.ArrayLike) -> None:
     retail: CPhysicsObj::set_local_velocity 0x005114D0, 06 5
     """
     _give(tick_velocity.set_local_velocity, rows, velocities)
+
+
+def set_elasticity(rows: Rows, elasticity: npt.ArrayLike) -> None:
+    """Give each body the part of its speed that it keeps in a bounce, within 0 and 0.1.
+
+    Parameters
+    ----------
+    rows : records of `engine.body_layout.BODY_DTYPE`
+        They are changed.
+    elasticity : array_like, shape (len(rows),)
+
+    Notes
+    -----
+    retail: CPhysicsObj::set_elasticity, 06 1
+    """
+    values = float32_array(elasticity, (len(rows),), "elasticity", QueryError)
+    rows["elasticity"] = np.clip(values, 0.0, MAX_ELASTICITY)
 
 
 def _give(kernel: Callable[..., None], rows: Rows, velocities: npt.ArrayLike) -> None:

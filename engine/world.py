@@ -12,6 +12,7 @@ from engine.compiling.ids import id_table
 from engine.compiling.objects import Parts, write_objects
 from engine.compiling.restrictions import write_restrictions
 from engine.compiling.storage import Storage
+from engine.compiling.terrain import DETAILS, SIDE
 from engine.errors import WorldError
 from engine.registration import register
 
@@ -74,7 +75,10 @@ class World:
         objects: Sequence[Obstacle] = (),
         restrictions: Mapping[int, Restriction] | None = None,
     ) -> None:
-        numbers = CellNumbers(cells, landblocks)
+        if not cells and not landblocks:
+            raise WorldError("world", "has no cells")
+        blocks = _in_full_detail(landblocks)
+        numbers = CellNumbers(cells, blocks)
         found = register(World(cells, landblocks, buildings), objects) if objects else {}
         lists = ObjectLists(_object_lists(numbers, cells, shadows or {}, found))
         self.cell_ids: Final = numbers.ids
@@ -86,7 +90,7 @@ class World:
         header |= write_objects(storage, parts, lists.obstacles, lists.where)
         header |= parts.write(storage)
         restricted = write_restrictions(storage, numbers, restrictions or {})
-        header |= write_cells(storage, numbers, lists.write(storage), restricted, cells, landblocks, houses)
+        header |= write_cells(storage, numbers, lists.write(storage), restricted, cells, blocks, houses)
         header |= _write_ids(storage, numbers.keys())
         header |= self._rows(len(cells) + len(numbers.unloaded))
         self.floats, self.ints = storage.finish(header)
@@ -164,6 +168,18 @@ class World:
         return f"<World: {len(self.cell_ids)} cells, {self.num_objects} objects, {len(self.shapes)} shapes>"
 
 
+def _in_full_detail(blocks: Sequence[LandBlock]) -> list[LandBlock]:
+    """Return the blocks that are not as if they were not loaded.
+
+    retail: LScape::get_landblock 0x00505E40, 10 3 and 4.1
+    """
+    for block in blocks:
+        if block.side_cell_count not in DETAILS:
+            where = f"landblock {block.id:#06x}, side_cell_count"
+            raise WorldError(where, f"{block.side_cell_count} is none of {DETAILS}")
+    return [block for block in blocks if block.side_cell_count == SIDE]
+
+
 def _write_ids(storage: Storage, keys: Mapping[int, int]) -> dict[int, int]:
     table = id_table(keys)
     return {int(at.WORLD_IDS): storage.add_ints(table), int(at.WORLD_IDS_MASK): len(table) // 2 - 1}
@@ -192,7 +208,7 @@ def _unique_shapes(
     mentioned = (
         *(cell.shape for cell in cells),
         *(building.shape for building in buildings),
-        *(part.shape for thing in obstacles for part in thing.parts),
+        *(part.shape for thing in obstacles for part in thing.parts if part.has_physics),
     )
     for shape in mentioned:
         if shape is not None and id(shape) not in seen:

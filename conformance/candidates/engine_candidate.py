@@ -11,6 +11,7 @@ from conformance.candidates.engine_ops import (
     gate_ops,
     math_ops,
     object_ops,
+    placement_ops,
     polygon_ops,
     state_ops,
     terrain_ops,
@@ -18,6 +19,7 @@ from conformance.candidates.engine_ops import (
     walk_ops,
     world_ops,
 )
+from conformance.candidates.engine_ops.not_askable import NotAskableError
 from conformance.candidates.table import TableCandidate
 from engine.errors import UndeterminedError
 from engine.tracing import recording
@@ -37,6 +39,7 @@ OPS: Final[dict[str, Callable[[Query], Fields]]] = {
     **object_ops.OPS,
     **tick_ops.OPS,
     **gate_ops.OPS,
+    **placement_ops.OPS,
     **terrain_ops.OPS,
     **cell_ops.OPS,
     **world_ops.OPS,
@@ -52,7 +55,7 @@ class EngineCandidate(TableCandidate):
     name = "engine"
     operations = OPS
     missing = "not in the engine yet"
-    unable = (UndeterminedError,)
+    unable = (UndeterminedError, NotAskableError)
 
     def recording(self, topics: Collection[str]) -> AbstractContextManager[WriteTrace]:
         """Run the kernels in the block interpreted, and record what their transitions write."""

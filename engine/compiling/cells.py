@@ -46,8 +46,6 @@ class CellNumbers:
     """
 
     def __init__(self, cells: Sequence[Cell], blocks: Sequence[LandBlock]) -> None:
-        if not cells and not blocks:
-            raise WorldError("world", "has no cells")
         indoors = [cell.id for cell in cells]
         _check_ids(indoors)
         _check_blocks([block.id for block in blocks])
@@ -239,7 +237,7 @@ def write_buildings(
         position = position_row(building.pose, f"{where}, pose")
         adjust_to_outside(position, 0)
         cell = numbers.index(int(position[0]))
-        if cell != at.NO_CELL:
+        if cell != at.NO_CELL and building.block in (None, int(position[0]) >> 16):
             houses.setdefault(cell, index)
         records.append(_building_ints(storage, parts, numbers, building, where))
     return {int(at.WORLD_BUILDINGS): storage.add_ints([n for record in records for n in record])}, houses

@@ -139,10 +139,10 @@ def _shape_records(shapes: Sequence[Sequence[float]], size: int, where: str) -> 
 
 
 def _add_parts(storage: Storage, parts: Parts, thing: Obstacle, where: str) -> int:
-    """Append an object's parts that have geometry; return how many."""
+    """Append an object's parts that can be collided with; return how many."""
     count = 0
     for index, part in enumerate(thing.parts):
-        if part.shape is None:
+        if part.shape is None or not part.has_physics:
             continue
         pose = thing.pose if part.pose is None else part.pose
         scale = thing.scale if part.scale is None else part.scale

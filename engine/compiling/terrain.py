@@ -22,6 +22,8 @@ Flags = npt.NDArray[np.bool_]
 
 SIDE: Final = 8
 """Land cells along an edge of a block (10, 1)."""
+DETAILS: Final = (SIDE, 4, 2, 1)
+"""How many of them a block may be loaded with (10, 3)."""
 VERTICES: Final = SIDE + 1
 """Vertices along an edge of a block."""
 MAX_BLOCK: Final = 254

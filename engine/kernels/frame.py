@@ -222,7 +222,7 @@ def frame_euler_set_rotate(a: Array, p: int, x: float, y: float, z: float) -> No
     )
 
 
-@kernel
+@entry
 def frame_set_vector_heading(a: Array, p: int, x: float, y: float, z: float) -> None:
     """Turn the frame's y axis to a direction; nothing happens for a vector shorter than EPS.
 
@@ -236,7 +236,7 @@ def frame_set_vector_heading(a: Array, p: int, x: float, y: float, z: float) -> 
     frame_euler_set_rotate(a, p, pitch, 0.0, yaw)
 
 
-@kernel
+@entry
 def frame_set_heading(a: Array, p: int, degrees: float) -> None:
     """Turn the frame's y axis to a compass heading: 0 is +y, 90 is +x.
 

@@ -5,12 +5,20 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from engine import layout as at
-from engine.constants import NEEDS_STEP_UP, TARGET_CELL, TARGET_OBJECT, TARGET_OBJECTS
+from engine.constants import (
+    NEEDS_STEP_UP,
+    OK,
+    TARGET_CELL,
+    TARGET_ENTRY,
+    TARGET_OBJECT,
+    TARGET_OBJECTS,
+)
 from engine.kernels.compile import entry, kernel
 from engine.kernels.insertion import answer_step_up, find_in_cell, find_obj_collisions, find_object
 from engine.kernels.objects import test_object_shape
 from engine.kernels.path import set_check_pos
 from engine.kernels.query import prepare, report, set_path_fields
+from engine.kernels.restrictions import check_entry_restrictions, is_restricted
 
 if TYPE_CHECKING:
     from engine.kernels.types import Array, Ints
@@ -22,6 +30,8 @@ def _call(wf: Array, wi: Ints, s: Array, q: Array) -> int:
     kind, cell, thing = int(q[at.Q_TARGET_KIND]), int(q[at.Q_TARGET_CELL]), int(q[at.Q_TARGET_OBJECT])
     if kind == TARGET_CELL:
         return find_in_cell(wf, wi, s, cell)
+    if kind == TARGET_ENTRY:
+        return check_entry_restrictions(wf, wi, s, cell) if is_restricted(wi, cell) else OK
     if kind == TARGET_OBJECTS:
         return find_obj_collisions(wf, wi, s, cell)
     if kind == TARGET_OBJECT:
@@ -35,8 +45,8 @@ def meet(wf: Array, wi: Ints, s: Array, q: Array, out: Array) -> None:
     """Answer one query: test the mover at the end pose against obstacles.
 
     retail: what calls CSphere::intersects_sphere 0x00537FD0, CCylSphere::intersects_sphere 0x0053B8F0,
-    CPhysicsObj::FindObjCollisions 0x0050F050, CObjCell::find_obj_collisions 0x0052B750 or
-    CEnvCell::find_collisions 0x0052C100
+    CPhysicsObj::FindObjCollisions 0x0050F050, CObjCell::find_obj_collisions 0x0052B750,
+    CEnvCell::find_collisions 0x0052C100 or CObjCell::check_entry_restrictions 0x0052B6D0
     """
     prepare(s, q)
     set_check_pos(s, at.END_POS, s[at.CURR_CELL])

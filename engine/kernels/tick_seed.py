@@ -1,4 +1,4 @@
-"""CPhysicsObj, the seed (06, 6): what a tick tells its transition."""
+"""CPhysicsObj, the seed (06, 6 and 10): what a tick, or a placement, tells its transition."""
 
 from __future__ import annotations
 
@@ -23,6 +23,10 @@ from engine.body_layout import (
     B_TRANSIENT,
     B_WANTED,
     B_WEENIE_BITS,
+    P_CELL,
+    P_DO_NOT_LOAD,
+    P_POSE,
+    P_SLIDE,
 )
 from engine.constants import (
     CONTACT,
@@ -50,7 +54,7 @@ from engine.constants import (
 from engine.kernels.collision_info import set_sliding_normal
 from engine.kernels.compile import entry, inlined, kernel
 from engine.kernels.path import init_path
-from engine.kernels.query import clear, init_spheres
+from engine.kernels.query import clear, init_spheres, load_pose
 from engine.kernels.tick_contact import leaves_contact
 from engine.kernels.tick_velocity import has_bit
 from engine.kernels.vector import copy, store
@@ -61,6 +65,7 @@ from engine.layout import (
     CONTACT_IS_WATER,
     CONTACT_PLANE,
     CONTACT_VALID,
+    DO_NOT_LOAD_CELLS,
     END_POS,
     FRAMES_STATIONARY_FALL,
     HAS_BEGIN_POS,
@@ -113,6 +118,22 @@ def seed_transition(s: Array, b: Array, admin_move: bool) -> int:
     elif has_bit(b, B_TRANSIENT, STATIONARY_FALL_TS):
         s[FRAMES_STATIONARY_FALL] = 1.0
     return flags
+
+
+@kernel
+def seed_placement(s: Array, b: Array, p: Array) -> None:
+    """Prepare the transition that puts a body down: it brings nothing along, and asks nothing of its state.
+
+    retail: CPhysicsObj::SetPosition 0x005160C0, CPhysicsObj::CheckPositionInternal, SP-4, SP-5
+    """
+    clear(s)
+    _init_object(s, b, 0)
+    _give_spheres(s, b)
+    s[PLACEMENT_ALLOWS_SLIDING] = p[P_SLIDE]
+    s[DO_NOT_LOAD_CELLS] = p[P_DO_NOT_LOAD]
+    s[BEGIN_CELL] = p[P_CELL]
+    load_pose(s, END_POS, p, P_POSE)
+    init_path(s)
 
 
 @kernel

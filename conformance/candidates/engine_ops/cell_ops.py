@@ -6,12 +6,20 @@ from typing import TYPE_CHECKING, Any, Final
 
 import numpy as np
 
+from conformance.candidates.engine_ops.not_askable import NotAskableError
 from conformance.candidates.engine_ops.obstacles import obstacle
+from conformance.candidates.engine_ops.rows import query_row
+from conformance.candidates.engine_ops.running import run
+from conformance.candidates.engine_ops.state_block import normal_or_null
 from conformance.candidates.engine_ops.values import vector
 from conformance.candidates.engine_ops.worlds import engine_world
 from engine import layout as at
+from engine.constants import STATE_NAMES
 from engine.kernels import cell_list, outside, transit
+from engine.kernels.object_calls import meet
+from engine.object_call import Target
 from engine.registration import Registrar
+from engine.visible import find_visible_child_cell
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterable, Mapping
@@ -80,6 +88,8 @@ def index_of(world: World, inputs: Mapping[str, Any]) -> int:
 
 
 def _find_cell_list(query: Query) -> Fields:
+    if query.inputs.get("without_path", 0):
+        raise NotAskableError("a list of cells that no path asks for")
     lister = CellLister(query)
     lister.row[at.DO_NOT_LOAD_CELLS] = query.inputs.get("do_not_load", 0)
     world = lister.world
@@ -131,6 +141,28 @@ def _point_in_cell(query: Query) -> Fields:
     return {"r": int(cell_list.point_in_cell(world.floats, world.ints, cell, *point))}
 
 
+def _find_visible_child_cell(query: Query) -> Fields:
+    inputs = query.inputs
+    world, search_stabs = engine_world(inputs["world"], query.geometries), bool(inputs["search_stabs"])
+    return {
+        "cell": find_visible_child_cell(world, inputs["cell"], inputs["point"], search_stabs=search_stabs)
+    }
+
+
+def _check_entry_restrictions(query: Query) -> Fields:
+    inputs = query.inputs
+    if inputs["mover"] is None:
+        raise NotAskableError("a transition without a mover")
+    world, where = engine_world(inputs["world"], query.geometries), inputs["position"]
+    row = query_row({"mover": inputs["mover"], "from": where, "to": where}, index_of(world, inputs))
+    row["target_kind"] = Target.ENTRY
+    result, _ = run(meet, world, row)
+    return {
+        "result": STATE_NAMES[int(result["result"])],
+        "collision_normal": normal_or_null(result, "collision_normal"),
+    }
+
+
 def _cross_cells(query: Query) -> Fields:
     inputs = query.inputs
     world = engine_world(inputs["world"], query.geometries)
@@ -146,6 +178,8 @@ OPS: Final[dict[str, Callable[[Query], Fields]]] = {
     "check_building_transit": _check_building_transit,
     "add_all_outside_cells": _add_all_outside_cells,
     "point_in_cell": _point_in_cell,
+    "find_visible_child_cell": _find_visible_child_cell,
+    "check_entry_restrictions": _check_entry_restrictions,
     "cross_cells": _cross_cells,
 }
 """Operation name to function."""

@@ -9,6 +9,7 @@ from engine import layout as at
 from engine.kernels import frame as frames
 from engine.kernels import plane as planes
 from engine.kernels import position as positions
+from engine.kernels.land_defs import outside_cell
 from engine.kernels.vector import normalize_check_small
 
 if TYPE_CHECKING:
@@ -93,6 +94,25 @@ def _snap_to_plane(query: Query) -> Fields:
     return {"v": [x, y, planes.snap_to_plane(numbers(query.inputs["plane"]), 0, x, y, z)]}
 
 
+def _frame_set_heading(query: Query) -> Fields:
+    row = frame(query.inputs["rotation"])
+    frames.frame_set_heading(row, 0, float(query.inputs["degrees"]))
+    return {"q": _quaternion(row)}
+
+
+def _frame_set_vector_heading(query: Query) -> Fields:
+    row = frame(query.inputs["rotation"])
+    frames.frame_set_vector_heading(row, 0, *vector(query.inputs["v"]))
+    return {"q": _quaternion(row)}
+
+
+def _position_get_outside_cell_id(query: Query) -> Fields:
+    position = query.inputs["position"]
+    x, y, _ = vector(position["origin"])
+    cell_id, _, _ = outside_cell(position["cell"], x, y)
+    return {"cell": int(cell_id)}
+
+
 def _frame_is_equal(query: Query) -> Fields:
     a, b = position(query.inputs["a"]), position(query.inputs["b"])
     return {"r": int(frames.frame_is_equal(a, 0, b, 0))}
@@ -106,11 +126,14 @@ OPS: Final[dict[str, Callable[[Query], Fields]]] = {
     "frame_localtoglobalvec": _with_pose(frames.frame_localtoglobalvec),
     "frame_globaltolocalvec": _with_pose(frames.frame_globaltolocalvec),
     "frame_is_equal": _frame_is_equal,
+    "frame_set_heading": _frame_set_heading,
+    "frame_set_vector_heading": _frame_set_vector_heading,
     "position_localtoglobal": _position_localtoglobal,
     "position_localtolocal": _position_localtolocal,
     "position_localtoglobalvec": _with_pose(positions.position_localtoglobalvec),
     "position_globaltolocalvec": _with_pose(positions.position_globaltolocalvec),
     "position_get_offset": _position_get_offset,
+    "position_get_outside_cell_id": _position_get_outside_cell_id,
     "block_offset": _block_offset,
     "plane_localtoglobal": _plane_localtoglobal,
     "normalize_check_small": _normalize_check_small,

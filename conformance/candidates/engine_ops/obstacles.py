@@ -49,4 +49,7 @@ def _part(block: Mapping[str, Any], geometries: Mapping[str, Geometry]) -> Part:
         None if name is None else engine_shape(geometries[name]),
         engine_pose(block["pose"]) if "pose" in block else None,
         block.get("scale"),
+        always_flat=bool(block.get("flat", 0)),
+        has_physics=not block.get("no_physics", 0),
+        drawing_sphere=block.get("drawing_sphere"),
     )

@@ -71,6 +71,7 @@ def _take_mover(row: Any, mover: Mapping[str, Any]) -> None:
         row[name] = mover[name]
     for name, key in (("mover_id", "id"), ("mover_missile", "missile"), ("target_id", "target_id")):
         row[name] = mover.get(key, 0)
+    row["mover_restricted"] = "weenie" in mover and not mover["weenie"].get("bypass", 0)
 
 
 def _take_seed(row: Any, seed: Mapping[str, Any]) -> None:

@@ -25,8 +25,8 @@ def state_block(result: Any, world: World) -> Fields:
         "global_spheres": [floats(s[:3]) for s in result["global_spheres"][: int(result["num_sphere"])]],
         "contact_plane": _plane_block(result, "contact_plane"),
         "last_known_contact_plane": _plane_block(result, "last_known_contact_plane"),
-        "collision_normal": _normal(result, "collision_normal"),
-        "sliding_normal": _normal(result, "sliding_normal"),
+        "collision_normal": normal_or_null(result, "collision_normal"),
+        "sliding_normal": normal_or_null(result, "sliding_normal"),
         "walkable": None if result["walkable"] < 0 else int(result["walkable"]),
         "walk_interp": float(result["walk_interp"]),
         "walkable_allowance": float(result["walkable_allowance"]),
@@ -84,5 +84,6 @@ def _plane_block(result: Any, name: str) -> dict[str, Any]:
     }
 
 
-def _normal(result: Any, name: str) -> list[float] | None:
+def normal_or_null(result: Any, name: str) -> list[float] | None:
+    """Write a normal that may not be valid."""
     return floats(result[name]) if result[f"{name}_valid"] else None

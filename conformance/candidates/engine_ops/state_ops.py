@@ -7,15 +7,18 @@ from typing import TYPE_CHECKING, Final
 import numpy as np
 
 from conformance.candidates.dispatch_names import DISPATCH_NAMES
+from conformance.candidates.engine_ops.not_askable import NotAskableError
 from conformance.candidates.engine_ops.rows import numbers_of, query_row, take_path
 from conformance.candidates.engine_ops.running import run
 from conformance.candidates.engine_ops.state_block import state_block, walkable_geometry
 from conformance.candidates.engine_ops.values import floats, numbers, position, vector
 from conformance.candidates.engine_ops.world_cache import world_around, world_of
 from engine import layout as at
-from engine.constants import STATE_NAMES
+from engine.constants import IS_VIEWER, STATE_NAMES
 from engine.kernels import adjust, path, query, sphere
+from engine.kernels import transition as transitions
 from engine.kernels.collisions import collide
+from engine.kernels.position import position_get_offset as get_offset
 from engine.kernels.resolving import resolve
 
 if TYPE_CHECKING:
@@ -92,6 +95,19 @@ def slide_sphere(question: Query) -> Fields:
     return outcome | _moved(state)
 
 
+def calc_num_steps(question: Query) -> Fields:
+    """`CTransition::calc_num_steps` of a whole movement."""
+    inputs = question.inputs
+    if inputs["from"] is None:
+        raise NotAskableError("the number of steps of a placement")
+    state = np.zeros(at.STATE_SIZE, dtype=np.float64)
+    query.prepare(state, numbers_of(query_row(inputs)))
+    viewer = int(state[at.OI_STATE]) & IS_VIEWER != 0
+    offset = get_offset(state, int(at.BEGIN_POS), state, int(at.END_POS))
+    *step, count = transitions.calc_num_steps(state, viewer, *offset)
+    return {"offset": list(offset), "step": step, "num_steps": int(count)}
+
+
 def adjust_offset(question: Query) -> Fields:
     """`CTransition::adjust_offset` of a given offset."""
     state = _at_check_pos(question)
@@ -127,6 +143,7 @@ OPS: Final[dict[str, Callable[[Query], Fields]]] = {
     "find_collisions": find_collisions,
     "transition": transition,
     "slide_sphere": slide_sphere,
+    "calc_num_steps": calc_num_steps,
     "adjust_offset": adjust_offset,
     "cliff_slide": cliff_slide,
     "cache_localspace_sphere": cache_localspace_sphere,

@@ -74,7 +74,7 @@ def _terrain_split(query: Query) -> Fields:
 def _terrain_block(query: Query) -> Fields:
     inputs = query.inputs
     block = inputs["block"]
-    heights = terrain.block_heights(inputs["heights"], "block")
+    heights = terrain.block_heights(inputs.get("heights_again", inputs["heights"]), "block")
     triangles = terrain.triangles(block, heights).reshape(int(at.LAND_CELLS), 2, -1)
     water = terrain.water_of(terrain.block_terrain(inputs.get("terrain"), "block"))
     cuts, kinds = terrain.split_cuts(block).ravel(), water.cells.ravel()

@@ -12,6 +12,7 @@ from engine import body_layout as of_body
 from engine import layout as at
 from engine.constants import ETHEREAL, ON_WALKABLE_TS
 from engine.kernels import tick, tick_collisions, tick_contact, tick_position, tick_seed, tick_velocity
+from engine.step import set_elasticity
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Mapping
@@ -144,6 +145,11 @@ def _set_position(query: Query) -> Fields:
         _take_contact(state, inputs["collisions"])
         tick_position.take_over(state, body.row, float(cell))
         _respond(inputs["collisions"], state, body, on_walkable=on_walkable)
+    return written_back(body)
+
+
+def written_back(body: LiveBody) -> Fields:
+    """Write what a body has after a write-back."""
     return {
         "lost": int(body.record["cell"] == at.NO_CELL),
         "position": body.pose(),
@@ -151,6 +157,12 @@ def _set_position(query: Query) -> Fields:
         **body.numbers("contact_plane", "sliding_normal", "velocity", "acceleration", "omega"),
         **_responded(body),
     }
+
+
+def _set_elasticity(query: Query) -> Fields:
+    body = LiveBody(query.inputs["body"])
+    set_elasticity(body.rows, [query.inputs["elasticity"]])
+    return {"elasticity": float(body.record["elasticity"])}
 
 
 def _take_contact(state: Array, block: Mapping[str, Any]) -> None:
@@ -205,6 +217,7 @@ OPS: Final[dict[str, Callable[[Query], Fields]]] = {
     "clear_transient_states": _clear_transient_states,
     "handle_all_collisions": _handle_all_collisions,
     "set_position": _set_position,
+    "set_elasticity": _set_elasticity,
     "seed": _seed,
 }
 """Operation name to function."""
