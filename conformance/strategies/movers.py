@@ -26,6 +26,8 @@ IGNORE_CREATURES: Final = 0x400
 PLAYER_KILLER: Final = 0x800
 PLAYER_KILLER_LITE: Final = 0x1000
 
+OWN_ID: Final = 0x50000001
+"""Object id of a mover, as a rule."""
 ALLOWANCES: Final = st.sampled_from((0.66417414, 0.0871557))
 """Limits of walkable slopes that retail uses: floor and landing, cosines of the slope."""
 SCALES: Final = st.one_of(st.just(1.0), st.sampled_from((0.5, 2.0)), grid(0.5, 2.0))
@@ -59,7 +61,6 @@ _SLIDING: Final = st.none() | st.tuples(anywhere(-1.0, 1.0), anywhere(-1.0, 1.0)
 _STATIONARY: Final = st.sampled_from((0, 0, 0, 1, 2, 3))
 _ETHEREAL: Final = st.sampled_from((0, 0, 0, 4))
 _HARDLY: Final = st.sampled_from((False, False, False, False, False, True))
-_OWN_ID: Final = 0x50000001
 _REMEMBERED: Final = st.sampled_from((("contact", "last_known"), ("last_known",), ()))
 
 
@@ -79,7 +80,7 @@ def draw_mover(draw: st.DrawFn, state: int) -> dict[str, Any]:
 
 def draw_identity(draw: st.DrawFn, others: Sequence[int]) -> dict[str, Any]:
     """Draw what objects ask of a mover: its id (seldom one of theirs), missile and target, ethereal."""
-    identity: dict[str, Any] = {"id": _OWN_ID, "ethereal": draw(_ETHEREAL)}
+    identity: dict[str, Any] = {"id": OWN_ID, "ethereal": draw(_ETHEREAL)}
     if draw(_HARDLY) and others:
         identity["id"] = pick(draw, others)
     if draw(_HARDLY):

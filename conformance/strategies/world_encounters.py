@@ -20,6 +20,7 @@ from conformance.strategies.movers import (
 from conformance.strategies.numbers import FLAGS, along, anywhere, grid, pick, unit
 from conformance.strategies.obstacles import LEVEL, UP
 from conformance.strategies.poses import CELLS, IDENTITY, ORIGINS, ROTATIONS
+from conformance.strategies.restricted_houses import movers_at_restricted_cells
 from conformance.strategies.world_queries import world_query
 from conformance.strategies.worlds.furniture import FIRST_THING
 from conformance.strategies.worlds.sites import site
@@ -138,6 +139,7 @@ WORLD_ENCOUNTERS: Final = {
     "step onto a drum": steps_onto_a_drum(),
     "head against something": heads_against_something(),
     "arrow over a rim": arrows_over_a_rim(),
+    "restricted cell": movers_at_restricted_cells(),
 }
 """Every kind of encounter, by what happens in it."""
 

@@ -39,8 +39,8 @@ def obstacle(block: Mapping[str, Any], geometries: Mapping[str, Geometry]) -> Ob
 
 
 def weenie(block: Mapping[str, Any]) -> Weenie:
-    """Return the engine's form of a `weenie` block."""
-    return Weenie(**{flag: bool(value) for flag, value in block.items()})
+    """Return the engine's form of a `weenie` block; which cells an obstacle may enter plays no role."""
+    return Weenie(**{flag: bool(value) for flag, value in block.items() if flag != "bypass"})
 
 
 def _part(block: Mapping[str, Any], geometries: Mapping[str, Geometry]) -> Part:
