@@ -1,4 +1,4 @@
-"""Registration: in which cells objects are found (08, 9)."""
+"""Registration: which cells objects reach (08, 9)."""
 
 from __future__ import annotations
 
@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Final
 import numpy as np
 
 from engine import layout as at
-from engine.constants import DUMMY_RADIUS, HAS_PHYSICS_BSP, PARTICLE_EMITTER, STATIC
+from engine.constants import DUMMY_RADIUS, HAS_PHYSICS_BSP
 from engine.errors import WorldError
 from engine.float32 import float32_array
 from engine.kernels.registration import (
@@ -97,21 +97,6 @@ class Registrar:
         first = int(self._world.ints[at.WORLD_CELL_LIST])
         listed: list[float] = self._row[first : first + int(self._row[at.NUM_CELLS])].tolist()
         return [int(cell) for cell in listed]
-
-    def cells_of(self, index: int) -> list[int]:
-        """Return the indices of the cells in which an object is found, in retail's order.
-
-        It is static if its state says so. A particle emitter is found in its own cell only.
-
-        Notes
-        -----
-        retail: CPhysicsObj::add_shadows_to_cells 0x00514AE0, 08 9.4
-        """
-        thing = self._objects[index]
-        if thing.state & PARTICLE_EMITTER:
-            own = self._world.cell_index(thing.pose.cell)
-            return [] if own == at.NO_CELL else [own]
-        return [cell for cell in self.cells_reached(index, static=bool(thing.state & STATIC)) if cell >= 0]
 
     def _list_by_parts(self, index: int) -> None:
         """List the cells that an object's parts reach; the row grows with the land that they cover."""
@@ -216,26 +201,3 @@ def _check_portals(world: World) -> None:
         for portal in np.flatnonzero(planes == 0):
             where = f"cell {world.cell_ids[cell]:#010x}, portal {portal}"
             raise WorldError(where, "its polygon is needed to register objects by their parts")
-
-
-def register(world: World, objects: Sequence[Obstacle]) -> dict[int, list[Obstacle]]:
-    """Return which objects are found in each cell, by its id, as `World` takes them.
-
-    Parameters
-    ----------
-    world : World
-        The cells, landblocks and buildings.
-    objects : sequence of Obstacle
-        In the order in which they enter the world, which is that of each cell's list.
-
-    Raises
-    ------
-    WorldError, PoseError
-        Naming the object, and what is wrong with it.
-    """
-    registrar = Registrar(world, objects)
-    shadows: dict[int, list[Obstacle]] = {}
-    for index, thing in enumerate(objects):
-        for cell in registrar.cells_of(index):
-            shadows.setdefault(world.cell_ids[cell], []).append(thing)
-    return shadows

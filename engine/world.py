@@ -14,7 +14,7 @@ from engine.compiling.restrictions import write_restrictions
 from engine.compiling.storage import Storage
 from engine.compiling.terrain import DETAILS, SIDE
 from engine.errors import WorldError
-from engine.registration import register
+from engine.shadows import register
 
 if TYPE_CHECKING:
     from collections.abc import Iterator, Mapping, Sequence
@@ -44,7 +44,7 @@ class World:
         obstacle that reaches into several cells is listed in each.
     objects : sequence of Obstacle, optional
         What is not listed yet, in the order in which it enters the world: it is registered in the cells
-        that it reaches, as retail does (`engine.registration`), after all that is listed.
+        that it reaches, as retail does (`engine.shadows`), after all that is listed.
     restrictions : mapping of int to Restriction, optional
         Who may enter a cell, environment or land, by its id; the others are open to everyone.
 

@@ -15,7 +15,7 @@ from conformance.candidates.oracle_candidate import OracleCandidate
 from conformance.compare import differences
 from conformance.floats import to_float32
 from conformance.query import Query, Result
-from engine.registration import register
+from engine.shadows import register
 
 if TYPE_CHECKING:
     from collections.abc import Mapping

@@ -12,7 +12,8 @@ from engine.cells import Portal
 from engine.constants import HAS_PHYSICS_BSP, STATIC
 from engine.landscape import Building, BuildingPortal
 from engine.objects import Obstacle, Part
-from engine.registration import Registrar, register
+from engine.registration import Registrar
+from engine.shadows import register
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -88,7 +89,7 @@ def indoors(x: float, cell: int = HALL, *, half: float = 0.5, state: int = SOLID
 
 def cells_of(world: World, thing: Obstacle) -> list[int]:
     """Return the ids of the cells in which one object is found."""
-    return [world.cell_ids[cell] for cell in Registrar(world, [thing]).cells_of(0)]
+    return list(register(world, [thing]))
 
 
 def test_a_box_within_a_land_cell_is_found_there() -> None:
@@ -128,6 +129,34 @@ def test_a_flat_part_covers_what_its_sphere_does() -> None:
     assert cells_of(land(), thing) == [land_id(1, 1)]
     flat = replace(thing, parts=[replace(thing.parts[0], always_flat=True)])
     assert cells_of(land(), flat) == [land_id(1, 1), land_id(0, 1)]
+
+
+def test_a_flat_part_without_a_sphere_is_a_point() -> None:
+    """Where its origin is, whatever its box."""
+    thing = outdoors(24.25, 36.0)
+    assert cells_of(land(), thing) == [land_id(1, 1), land_id(0, 1)]
+    picture = replace(thing.parts[0], always_flat=True, has_physics=False)
+    assert cells_of(land(), replace(thing, parts=[picture])) == [land_id(1, 1)]
+
+
+@pytest.mark.parametrize(
+    ("sphere", "found"),
+    [((0, 0, 0, 1.0), [HALL, ROOM]), ((-6.0, 0, 0, 1.0), [HALL]), (None, [HALL])],
+)
+def test_a_part_without_physics_is_found_by_what_is_drawn(
+    sphere: tuple[float, ...] | None, found: list[int]
+) -> None:
+    """09 4.3.1: its drawing sphere has to reach the portal, and then its box; without one it reaches none."""
+    thing = indoors(64.75)
+    drawn = replace(thing.parts[0], has_physics=False, drawing_sphere=sphere)
+    assert cells_of(house(), replace(thing, parts=[drawn])) == found
+
+
+def test_a_drawing_sphere_is_checked() -> None:
+    """It is said whose it is."""
+    drawn = Part(cube(0.5), has_physics=False, drawing_sphere=(0, 0, 0))
+    with pytest.raises(WorldError, match="object 0, part, drawing sphere: "):
+        register(house(), [replace(indoors(60.0), parts=[drawn])])
 
 
 def test_scale_plays_no_role() -> None:

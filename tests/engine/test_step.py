@@ -18,6 +18,7 @@ from engine import (
     Weenie,
     body_rows,
     resolve_many,
+    set_elasticity,
     set_local_velocity,
     set_velocity,
     step,
@@ -237,3 +238,12 @@ def test_ticks_that_cannot_be() -> None:
     rows["state"] = 0x404
     assert step_many(world, rows, DT, 1)["state"] == 0x400
     assert rows["transient_state"] == ACTIVE
+
+
+def test_elasticity_has_limits() -> None:
+    """0 and 0.1; what is between is stored as float32."""
+    rows = body_rows(world_of(floor_and_wall()), [walker()] * 4)
+    set_elasticity(rows, [-0.5, 0.05, 0.1, 7.0])
+    assert rows["elasticity"].tolist() == [0.0, f32(0.05), f32(0.1), f32(0.1)]
+    with pytest.raises(QueryError, match="elasticity"):
+        set_elasticity(rows, [0.0])

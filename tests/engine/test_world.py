@@ -216,3 +216,53 @@ def test_wrong_objects_are_refused(changed: dict[str, Any], message: str) -> Non
     with pytest.raises((WorldError, PoseError)) as caught:
         World([Cell(CELL, Pose(CELL), SHAPE, [thing])])
     assert str(caught.value).startswith(f"cell 0xa9b40111, {message}")
+
+
+LAND, EAST = 0xA9B4, 0xAAB4
+
+
+def flat(block: int, **more: Any) -> LandBlock:
+    """Return a level landblock."""
+    return LandBlock(block, [0.0] * 81, **more)
+
+
+@pytest.mark.parametrize("detail", [4, 2, 1])
+def test_a_block_with_less_detail_is_as_if_not_loaded(detail: int) -> None:
+    """10 4.1: its cells are not found; one alone makes a world all the same."""
+    world = World(landblocks=[flat(LAND, side_cell_count=detail), flat(EAST)])
+    assert world.cell_index(LAND << 16 | 1) == at.NO_CELL
+    assert len(world.cell_ids) == at.LAND_CELLS
+    assert World(landblocks=[flat(LAND, side_cell_count=detail)]).cell_ids == ()
+
+
+def test_a_block_has_as_many_cells_as_retail_loads() -> None:
+    """8, 4, 2 or 1 along an edge."""
+    with pytest.raises(WorldError, match="landblock 0xa9b4, side_cell_count: 3 is none of"):
+        World(landblocks=[flat(LAND, side_cell_count=3)])
+
+
+def building_of(world: World, cell: int) -> int:
+    """Return the index of the building of a land cell, or NO_BUILDING."""
+    record = world.ints[at.WORLD_CELL_INTS] + at.CELL_INTS * world.cell_index(cell)
+    return int(world.ints[record + at.LAND_BUILDING])
+
+
+@pytest.mark.parametrize(("block", "expected"), [(None, 0), (LAND, 0), (EAST, at.NO_BUILDING)])
+def test_a_building_is_listed_by_the_block_under_it(block: int | None, expected: int) -> None:
+    """09 3.7: another block does not find the land cell, and drops it."""
+    house = Building(Pose(LAND << 16 | 1, (1, 1, 0)), None, block=block)
+    world = World(landblocks=[flat(LAND), flat(EAST)], buildings=[house])
+    assert building_of(world, LAND << 16 | 1) == expected
+
+
+def test_the_first_building_of_a_land_cell_wins() -> None:
+    """09 3.6: any other is as if it were not there."""
+    first, second = (Building(Pose(LAND << 16 | 1, (x, 1, 0)), None) for x in (1, 2))
+    assert building_of(World(landblocks=[flat(LAND)], buildings=[first, second]), LAND << 16 | 1) == 0
+
+
+def test_a_part_without_physics_is_not_compiled() -> None:
+    """Its geometry only says where its object is found."""
+    drawn = Obstacle(Pose(CELL), state=0x10001, parts=[Part(triangle(), has_physics=False)])
+    world = World([Cell(CELL, Pose(CELL), None, [drawn])])
+    assert (world.shapes, world.shape_count(0), world.has_parts(0)) == ((), 0, False)

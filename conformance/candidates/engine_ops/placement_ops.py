@@ -1,15 +1,17 @@
-"""Bodies put down in a world (``place_body``), by the engine."""
+"""Whole objects put into a world and taken out of its cells, by the engine."""
 
 from __future__ import annotations
 
 from typing import TYPE_CHECKING, Final
 
 from conformance.candidates.engine_ops.bodies import LiveBody
+from conformance.candidates.engine_ops.obstacles import obstacle
 from conformance.candidates.engine_ops.tick_ops import written_back
 from conformance.candidates.engine_ops.values import floats
 from conformance.candidates.engine_ops.world_cache import engine_pose
 from conformance.candidates.engine_ops.worlds import engine_world
 from engine.placing import place
+from engine.shadows import ShadowLists
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -40,5 +42,23 @@ def _place_body(query: Query) -> Fields:
     return {"result": int(placed.result), "to": to, **written_back(body)}
 
 
-OPS: Final[dict[str, Callable[[Query], Fields]]] = {"place_body": _place_body}
+def _registration(query: Query) -> Fields:
+    inputs = query.inputs
+    blocks = inputs["world"]["objects"]
+    number = {block["id"]: index for index, block in enumerate(blocks)}
+    lists = ShadowLists(
+        engine_world(inputs["world"], query.geometries),
+        [obstacle(block, query.geometries) for block in blocks],
+        {number[block["id"]]: [number[k] for k in block.get("attached", ())] for block in blocks},
+    )
+    for call in inputs["calls"]:
+        (lists.leave if call["call"] == "leave" else lists.enter)(number[call["object"]])
+    found = sorted(lists.by_cell().items())
+    return {"shadow": [{"cell": cell, "objects": [thing.id for thing in things]} for cell, things in found]}
+
+
+OPS: Final[dict[str, Callable[[Query], Fields]]] = {
+    "place_body": _place_body,
+    "registration": _registration,
+}
 """Operation name to function."""
