@@ -55,19 +55,15 @@ if TYPE_CHECKING:
 
 @inlined
 def _building_part(wi: Ints, cell: int) -> int:
-    """Return the part that a land cell's building is collided with, or NO_PART."""
+    """Return the part that a land cell's building is collided with, or NO_PART if it has no shell."""
     building = wi[ints_of(wi, cell) + LAND_BUILDING]
-    return (
-        NO_PART
-        if building == NO_BUILDING
-        else wi[wi[WORLD_BUILDINGS] + BUILDING_INTS * building + BUILDING_PART]
-    )
+    return wi[wi[WORLD_BUILDINGS] + BUILDING_INTS * building + BUILDING_PART]
 
 
 @inlined
 def fixed_count(wi: Ints, cell: int) -> int:
     """Return how many fixed things are in a cell: its environment, and perhaps a building."""
-    return 2 if is_land(wi, cell) and _building_part(wi, cell) != NO_PART else 1
+    return 2 if is_land(wi, cell) and wi[ints_of(wi, cell) + LAND_BUILDING] != NO_BUILDING else 1
 
 
 @kernel
@@ -105,8 +101,10 @@ def _test_building(wf: Array, wi: Ints, s: Array, part: int) -> int:
 
     retail: CBuildingObj::find_building_collisions 0x006B5300, 09 3.7
     """
-    s[BLDG_CHECK] = 1.0
     trace_open(wi, s, BUILDING_CALL)
+    if part == NO_PART:
+        return OK
+    s[BLDG_CHECK] = 1.0
     return test_part(wf, wi, s, part)
 
 
@@ -118,7 +116,8 @@ def accept_fixed(wi: Ints, s: Array, cell: int, fixed: int, ts: int) -> None:
     CBuildingObj::find_building_collisions 0x006B5300, 09 3.7.4-5
     """
     if fixed > 0:
-        s[BLDG_CHECK] = 0.0
+        if _building_part(wi, cell) != NO_PART:
+            s[BLDG_CHECK] = 0.0
         trace_close(wi, s, ts)
     elif is_land(wi, cell):
         return

@@ -122,7 +122,7 @@ def test_a_block_that_is_nothing_but_sea_is_a_wall(who: Mover, passes: bool) -> 
     assert (result["curr"][5] == 30.25) == passes
 
 
-def house() -> World:
+def house(*, shell: bool = True) -> World:
     """Return a house over land cell 0: its room, from x = 5.5 on, has a door to the south at y = 10."""
     hall = BLOCK << 16 | 0x100
     floor = [(0, 10, 0), (20, 10, 0), (20, 20, 0), (0, 20, 0)]
@@ -135,13 +135,14 @@ def house() -> World:
         Leaf((0, 5, 2, 8), (0,)),
         name="outer wall",
     )
-    building = Building(Pose(land(0), (5.0, 10.0, 0.0)), wall, [BuildingPortal(hall)])
+    building = Building(Pose(land(0), (5.0, 10.0, 0.0)), wall if shell else None, [BuildingPortal(hall)])
     return World([Cell(hall, Pose(hall), room, portals=[door])], [LandBlock(BLOCK, FLAT)], [building])
 
 
-def test_a_mover_enters_a_house_and_leaves_it() -> None:
+@pytest.mark.parametrize("shell", [True, False])
+def test_a_mover_enters_a_house_and_leaves_it(shell: bool) -> None:
     """Its cell is the room's as soon as its centre is behind the door, and the ground's before."""
-    world = house()
+    world = house(shell=shell)
     inside = walk(world, (10.0, 9.75, R), (10.0, 10.125, R), land(0))
     assert world.cell_ids[int(inside["curr_cell"])] == BLOCK << 16 | 0x100
     assert inside["curr"][5:].tolist() == [10.0, 10.125, R]
@@ -156,6 +157,14 @@ def test_the_outer_wall_of_a_house_is_in_the_way() -> None:
     result = walk(house(), (4.0, 14.0, R), (4.75, 14.0, R), land(0))
     assert result["curr"][5] < 5.0 - R + 0.001
     assert result["collision_normal"].tolist() == [-1.0, 0.0, 0.0]
+
+
+def test_a_house_without_a_shell_is_only_its_rooms() -> None:
+    """09 3.7.1: what would be at its outer wall is passed; its building is asked all the same."""
+    world = house(shell=False)
+    result = walk(world, (4.0, 14.0, R), (4.75, 14.0, R), land(0))
+    assert result["curr"][5] == 4.75
+    assert result["collision_normal_valid"] == 0
 
 
 def test_a_mover_is_not_in_its_own_way() -> None:
