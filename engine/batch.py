@@ -9,16 +9,14 @@ import numpy as np
 from engine import layout as at
 from engine.body_layout import MAX_RECORDS, STATUS_CROWDED
 from engine.errors import CrowdedError, QueryError, RecursionBoundError, UndeterminedError
-from engine.kernels.collisions import collide_many
-from engine.kernels.object_calls import meet_many
-from engine.kernels.resolving import resolve_many as resolve_rows
+from engine.kernels import program
 from engine.object_call import ObjectCall, object_rows
 from engine.query import CollisionCall, Move, collision_rows, move_rows
 from engine.threads import in_parts
 from engine.tracing import runnable
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Sequence
+    from collections.abc import Sequence
 
     from engine.query import Rows
     from engine.world import World
@@ -60,7 +58,7 @@ def resolve_many(world: World, moves: Sequence[Move] | Rows, *, threads: int = 1
     have been answered, and holds the answers. See `resolve`.
     """
     rows = moves if isinstance(moves, np.ndarray) else move_rows(world, moves)
-    return _run(resolve_rows, world, rows, threads)
+    return _run(program.RESOLVE, world, rows, threads)
 
 
 def find_collisions(world: World, call: CollisionCall) -> Any:
@@ -92,7 +90,7 @@ def find_collisions_many(world: World, calls: Sequence[CollisionCall] | Rows, *,
     `threads` share them, with the same results for any number. See `find_collisions`.
     """
     rows = calls if isinstance(calls, np.ndarray) else collision_rows(world, calls)
-    return _run(collide_many, world, rows, threads)
+    return _run(program.COLLIDE, world, rows, threads)
 
 
 def find_object_collisions(world: World, call: ObjectCall) -> Any:
@@ -126,19 +124,19 @@ def find_object_collisions_many(
     `threads` share them, with the same results for any number. See `find_object_collisions`.
     """
     rows = calls if isinstance(calls, np.ndarray) else object_rows(world, calls)
-    return _run(meet_many, world, rows, threads)
+    return _run(program.MEET, world, rows, threads)
 
 
-def _run(kernel: Callable[..., None], world: World, rows: Rows, threads: int) -> Rows:
+def _run(job: int, world: World, rows: Rows, threads: int) -> Rows:
     if rows.dtype != at.QUERY_DTYPE:
         raise QueryError("rows", "not of engine.layout.QUERY_DTYPE")
     queries = np.ascontiguousarray(rows).view(np.float64).reshape(len(rows), at.QUERY_SIZE)
     results = np.zeros(len(rows), dtype=at.RESULT_DTYPE)
     answers = results.view(np.float64).reshape(len(rows), at.RESULT_SIZE)
-    run = runnable(kernel)
+    run = runnable(program.run)
 
     def work(part: slice) -> None:
-        run(world.floats, world.ints, world.new_row(), queries[part], answers[part])
+        run(world.floats, world.ints, world.new_row(), job, queries[part], answers[part])
 
     in_parts(work, len(rows), threads)
     check_status(results["status"], results)

@@ -8,8 +8,7 @@ import numpy as np
 
 from engine import layout as at
 from engine.batch import check_status
-from engine.kernels.collisions import collide_many
-from engine.kernels.resolving import resolve_many
+from engine.kernels import program
 from engine.query import CollisionCall, Move, collision_rows, move_rows
 from engine.tracing import runnable
 
@@ -55,9 +54,9 @@ class Prepared:
 
     def __init__(self, world: World, query: Move | CollisionCall) -> None:
         if isinstance(query, Move):
-            rows, self._kernel = move_rows(world, [query]), resolve_many
+            rows, job = move_rows(world, [query]), program.RESOLVE
         else:
-            rows, self._kernel = collision_rows(world, [query]), collide_many
+            rows, job = collision_rows(world, [query]), program.COLLIDE
         results = np.zeros(1, dtype=at.RESULT_DTYPE)
         self.query: Final[Any] = rows[0]
         self.result: Final[Any] = results[0]
@@ -66,6 +65,7 @@ class Prepared:
             world.floats,
             world.ints,
             world.new_row(),
+            job,
             rows.view(np.float64).reshape(1, at.QUERY_SIZE),
             self._numbers.reshape(1, at.RESULT_SIZE),
         )
@@ -78,7 +78,7 @@ class Prepared:
         RecursionBoundError, UndeterminedError
             As `engine.resolve`.
         """
-        runnable(self._kernel)(*self._arguments)
+        runnable(program.run)(*self._arguments)
         if self._numbers[at.R_STATUS] != at.STATUS_OK:
             check_status(self._numbers[at.R_STATUS : at.R_STATUS + 1])
         return self.result

@@ -13,7 +13,8 @@ from engine.body_layout import BODY_DTYPE
 from engine.constants import CHECK_ETHEREAL_TS, MAX_ELASTICITY
 from engine.errors import QueryError
 from engine.float32 import float32_array
-from engine.kernels import tick, tick_gates, tick_velocity
+from engine.kernels import program, tick_velocity
+from engine.kernels.tick_gates import MAX_TICKS
 from engine.layout import VECTOR_SIZE
 from engine.threads import in_parts
 from engine.tracing import runnable
@@ -75,10 +76,10 @@ def step_many(world: World, rows: Rows, dt: float, ticks: int, *, threads: int =
     if not quantum > 0.0:
         raise QueryError("dt", f"{dt} seconds is not greater than 0")
     numbers = _ready(rows)
-    run = runnable(tick.step_many)
+    run, times = runnable(program.run), np.array([[quantum, float(ticks)]])
 
     def work(part: slice) -> None:
-        run(world.floats, world.ints, world.new_row(), numbers[part], quantum, ticks)
+        run(world.floats, world.ints, world.new_row(), program.STEP, numbers[part], times)
 
     in_parts(work, len(rows), threads)
     check_status(rows["status"])
@@ -107,11 +108,12 @@ def update_many(world: World, rows: Rows, now: float, *, threads: int = 1) -> Ro
     if not math.isfinite(now):
         raise QueryError("now", f"{now} is not a time")
     numbers = _ready(rows)
-    update = runnable(tick_gates.update_many)
+    run = runnable(program.run)
 
     def work(part: slice) -> None:
-        quanta, times = np.zeros((2, int(tick_gates.MAX_TICKS)), dtype=np.float64)
-        update(world.floats, world.ints, world.new_row(), numbers[part], float(now), quanta, times)
+        times = np.zeros((3, int(MAX_TICKS)), dtype=np.float64)
+        times[0, 0] = now
+        run(world.floats, world.ints, world.new_row(), program.UPDATE, numbers[part], times)
 
     in_parts(work, len(rows), threads)
     check_status(rows["status"])

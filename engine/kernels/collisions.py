@@ -9,7 +9,7 @@ from engine.constants import INITIAL_PLACEMENT_INSERT, NEEDS_STEP_UP
 from engine.kernels.bsp_placement import placement_insert
 from engine.kernels.bsp_tree import dispatch, find_collisions
 from engine.kernels.cell_array import ints_of, position_of
-from engine.kernels.compile import entry, kernel
+from engine.kernels.compile import kernel
 from engine.kernels.path import cache_localspace_sphere, set_check_pos
 from engine.kernels.query import prepare, report, set_path_fields
 from engine.kernels.stepping import step_up_or_slide
@@ -31,18 +31,12 @@ def _target(wi: Ints, q: Array) -> tuple[int, int, bool]:
     return position_of(wi, cell), wi[ints_of(wi, cell) + at.CELL_TREE], False
 
 
-@entry
+@kernel
 def collide(wf: Array, wi: Ints, s: Array, q: Array, out: Array) -> None:
     """Answer one query: test the mover at the end pose against the target's tree.
 
     retail: what calls BSPTREE::find_collisions 0x0053A440 or BSPTREE::placement_insert 0x00539960
     """
-    _collide(wf, wi, s, q, out)
-
-
-@kernel
-def _collide(wf: Array, wi: Ints, s: Array, q: Array, out: Array) -> None:
-    """Make one call, and report."""
     prepare(s, q)
     set_check_pos(s, at.END_POS, s[at.CURR_CELL])
     set_path_fields(s, q)
@@ -60,10 +54,3 @@ def _collide(wf: Array, wi: Ints, s: Array, q: Array, out: Array) -> None:
             trace_close(wi, s, ts)
     report(wf, s, out, ts)
     out[at.R_DISPATCH] = path
-
-
-@entry
-def collide_many(wf: Array, wi: Ints, s: Array, queries: Array, out: Array) -> None:
-    """Answer many queries, one after the other, in one row of state."""
-    for i in range(len(queries)):
-        _collide(wf, wi, s, queries[i], out[i])

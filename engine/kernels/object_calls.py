@@ -1,4 +1,4 @@
-"""One call of an obstacle, of a cell's obstacles or of a whole cell, and many of them."""
+"""One call of an obstacle, of a cell's obstacles or of a whole cell."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ from engine.constants import (
     TARGET_OBJECT,
     TARGET_OBJECTS,
 )
-from engine.kernels.compile import entry, kernel
+from engine.kernels.compile import kernel
 from engine.kernels.insertion import answer_step_up, find_in_cell, find_obj_collisions, find_object
 from engine.kernels.objects import test_object_shape
 from engine.kernels.path import set_check_pos
@@ -40,7 +40,7 @@ def _call(wf: Array, wi: Ints, s: Array, q: Array) -> int:
     return answer_step_up(wf, wi, s) if ts == NEEDS_STEP_UP else ts
 
 
-@entry
+@kernel
 def meet(wf: Array, wi: Ints, s: Array, q: Array, out: Array) -> None:
     """Answer one query: test the mover at the end pose against obstacles.
 
@@ -52,10 +52,3 @@ def meet(wf: Array, wi: Ints, s: Array, q: Array, out: Array) -> None:
     set_check_pos(s, at.END_POS, s[at.CURR_CELL])
     set_path_fields(s, q)
     report(wf, s, out, _call(wf, wi, s, q))
-
-
-@entry
-def meet_many(wf: Array, wi: Ints, s: Array, queries: Array, out: Array) -> None:
-    """Answer many queries, one after the other, in one row of state."""
-    for i in range(len(queries)):
-        meet(wf, wi, s, queries[i], out[i])

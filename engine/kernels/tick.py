@@ -80,21 +80,17 @@ if TYPE_CHECKING:
     from engine.kernels.types import Array, Ints
 
 
-@entry
-def step_many(wf: Array, wi: Ints, s: Array, bodies: Array, quantum: float, ticks: int) -> None:
-    """Let ticks of `quantum` seconds pass for many bodies, each as if it were alone.
-
-    One whose tick fails stops there. `s` is a row for their transitions.
+@kernel
+def step(wf: Array, wi: Ints, s: Array, b: Array, quantum: float, ticks: float) -> None:
+    """Let ticks of `quantum` seconds pass for a body; it stops at the first that fails.
 
     retail: PhysicsTimer::curr_time and CPhysicsObj::UpdateObjectInternal 0x005156B0
     """
-    for i in range(len(bodies)):
-        b = bodies[i]
-        b[B_STATUS] = STATUS_OK
-        for _ in range(ticks):
-            if b[B_STATUS] == STATUS_OK:
-                b[B_PHYSICS_TIME] += quantum
-                update_object_internal(wf, wi, s, b, quantum)
+    b[B_STATUS] = STATUS_OK
+    for _ in range(int(ticks)):
+        if b[B_STATUS] == STATUS_OK:
+            b[B_PHYSICS_TIME] += quantum
+            update_object_internal(wf, wi, s, b, quantum)
 
 
 @kernel

@@ -26,7 +26,7 @@ from engine.constants import (
     MIN_QUANTUM,
     frozen,
 )
-from engine.kernels.compile import entry, inlined
+from engine.kernels.compile import entry, inlined, kernel
 from engine.kernels.position import position_get_offset
 from engine.kernels.rounding import f32
 from engine.kernels.tick import update_object_internal
@@ -128,21 +128,17 @@ def _add_tick(b: Array, quanta: Array, times: Array, count: int, q: float) -> in
     return count + 1
 
 
-@entry
-def update_many(
-    wf: Array, wi: Ints, s: Array, bodies: Array, now: float, quanta: Array, times: Array
-) -> None:
-    """Simulate each body up to `now`; one whose tick fails stops there.
+@kernel
+def update(wf: Array, wi: Ints, s: Array, b: Array, now: float, quanta: Array, times: Array) -> None:
+    """Simulate a body up to `now`; it stops at the first tick that fails.
 
-    `quanta`, `times`: room for the ticks of one body.
+    `quanta`, `times`: room for its ticks.
 
     retail: CPhysicsObj::update_object 0x00515D10, without a player
     """
-    for i in range(len(bodies)):
-        b = bodies[i]
-        b[B_STATUS] = STATUS_OK
-        b[B_CLOCK] = now
-        for k in range(object_gate(b, quanta, times)):
-            if b[B_STATUS] == STATUS_OK:
-                b[B_PHYSICS_TIME] = times[k]
-                update_object_internal(wf, wi, s, b, quanta[k])
+    b[B_STATUS] = STATUS_OK
+    b[B_CLOCK] = now
+    for k in range(object_gate(b, quanta, times)):
+        if b[B_STATUS] == STATUS_OK:
+            b[B_PHYSICS_TIME] = times[k]
+            update_object_internal(wf, wi, s, b, quanta[k])

@@ -8,15 +8,13 @@ from typing import Any
 import pytest
 from numba import types
 
-from engine.kernels.collisions import collide_many
 from engine.kernels.compile import Entry
 from engine.kernels.cylsphere_responses import _meet_corner
 from engine.kernels.frame import frame_cache, frame_globaltolocal
 from engine.kernels.obstacle import stand_upon
 from engine.kernels.polygon import polygon_make_plane
 from engine.kernels.position import position_localtoglobalvec
-from engine.kernels.resolving import resolve_many
-from engine.kernels.tick import step_many
+from engine.kernels.program import run
 from engine.kernels.vector import normalize_check_small
 
 FLOATS = types.Array(types.float64, 1, "C")
@@ -54,13 +52,9 @@ def test_one_rounding_for_each_store(kernel: Any, signature: tuple[Any, ...], st
     assert not re.search(r"\bfast\b|\bcontract\b|\breassoc\b", code)
 
 
-@pytest.mark.parametrize(
-    ("kernel", "arguments"),
-    [(collide_many, (ROWS, ROWS)), (resolve_many, (ROWS, ROWS)), (step_many, (ROWS, F, N))],
-)
-def test_no_fused_multiply_add_and_no_reference_counts(kernel: Any, arguments: tuple[Any, ...]) -> None:
+def test_no_fused_multiply_add_and_no_reference_counts() -> None:
     """Whole queries and ticks, with all that they call, neither fuse operations nor count references."""
-    fresh = compiled(kernel, (FLOATS, INTS, FLOATS, *arguments))
+    fresh = compiled(run, (FLOATS, INTS, FLOATS, N, ROWS, ROWS))
     (code,) = fresh.inspect_llvm().values()
     (assembly,) = fresh.inspect_asm().values()
     assert "NRT_incref" not in code

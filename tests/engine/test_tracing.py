@@ -24,7 +24,8 @@ from engine import (
     update_many,
 )
 from engine.constants import FLOOR_Z
-from engine.kernels.resolving import resolve_many as compiled
+from engine.kernels.program import RESOLVE
+from engine.kernels.program import run as compiled
 from engine.layout import RESULT_SIZE
 from engine.query import move_rows
 from engine.tracing import UnknownTopicError, recording, runnable
@@ -243,7 +244,7 @@ def test_an_error_leaves_a_call_unfinished() -> None:
     queries = move_rows(world, [LANDING]).view(np.float64).reshape(1, -1)
     out = np.zeros((1, int(RESULT_SIZE)))
     with recording((STATE, BSP)) as trace, pytest.raises(FatalError):
-        runnable(compiled)(world.floats.view(Unreadable), world.ints, world.new_row(), queries, out)
+        runnable(compiled)(world.floats.view(Unreadable), world.ints, world.new_row(), RESOLVE, queries, out)
     assert told(trace) == [("Call", "A", UNFINISHED, "find_env_collisions")]
 
 

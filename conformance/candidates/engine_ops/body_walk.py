@@ -4,6 +4,8 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any, Final
 
+import numpy as np
+
 from conformance.candidates.engine_ops.bodies import LiveBody
 from conformance.candidates.engine_ops.running import TRACE_CAPACITY
 from conformance.candidates.engine_ops.state_block import trace_text
@@ -14,7 +16,7 @@ from engine import layout as at
 from engine.batch import check_status
 from engine.body_layout import OUTCOMES
 from engine.constants import CONTACT_TS, SLIDING_TS
-from engine.kernels import tick, tick_velocity
+from engine.kernels import program, tick_velocity
 from engine.tracing import runnable
 
 if TYPE_CHECKING:
@@ -79,8 +81,8 @@ class Recorder:
         before = row.copy()
         while True:
             state = self.world.new_row(trace_capacity=capacity)
-            step = runnable(tick.step_many)
-            step(self.world.floats, self.world.ints, state, row.reshape(1, -1), quantum, 1)
+            step, times = runnable(program.run), np.array([[quantum, 1.0]])
+            step(self.world.floats, self.world.ints, state, program.STEP, row.reshape(1, -1), times)
             check_status(self.body.record["status"].reshape(1))
             trace = trace_text(state, self.world.ints)
             if trace is not None:

@@ -17,8 +17,7 @@ from conformance.candidates.engine_ops.values import vector
 from conformance.candidates.engine_ops.world_cache import engine_pose, unbounded_shape
 from engine.cells import Cell
 from engine.constants import STATE_NAMES
-from engine.kernels.object_calls import meet
-from engine.kernels.resolving import resolve
+from engine.kernels.program import MEET, RESOLVE
 from engine.kernels.sphere_responses import find_time_of_collision
 from engine.object_call import Target
 from engine.objects import Obstacle, Weenie
@@ -54,14 +53,14 @@ def _object_call(query: Query) -> Fields:
     take_path(row, inputs["path"])
     row["target_kind"] = TARGETS[inputs["function"]]
     row["target_object"] = world.objects.index(called)
-    result, trace, touched = run_noting(meet, world, row)
+    result, trace, touched = run_noting(MEET, world, row)
     fields: Fields = {"result": STATE_NAMES[int(result["result"])], "trace": trace}
     return fields | _state(result, touched, world)
 
 
 def _object_transition(query: Query) -> Fields:
     world = World([_cell(query, _obstacles(query))])
-    result, trace, touched = run_noting(resolve, world, query_row(query.inputs, begin_cell=0))
+    result, trace, touched = run_noting(RESOLVE, world, query_row(query.inputs, begin_cell=0))
     fields: Fields = {"result": int(result["result"]), "trace": trace}
     return fields | _state(result, touched, world)
 

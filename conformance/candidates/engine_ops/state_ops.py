@@ -17,9 +17,8 @@ from engine import layout as at
 from engine.constants import IS_VIEWER, STATE_NAMES
 from engine.kernels import adjust, path, query, sphere
 from engine.kernels import transition as transitions
-from engine.kernels.collisions import collide
 from engine.kernels.position import position_get_offset as get_offset
-from engine.kernels.resolving import resolve
+from engine.kernels.program import COLLIDE, RESOLVE
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -35,7 +34,7 @@ def find_collisions(question: Query) -> Fields:
     row = query_row(inputs, begin_cell=0)
     row["target_object"] = at.NO_OBJECT if inputs["as"] == "cell" else 0
     take_path(row, inputs["path"])
-    result, trace = run(collide, world, row)
+    result, trace = run(COLLIDE, world, row)
     outcome: Fields = {
         "dispatch": DISPATCH_NAMES[chr(int(result["dispatch"]))],
         "result": STATE_NAMES[int(result["result"])],
@@ -48,7 +47,7 @@ def transition(question: Query) -> Fields:
     """One `find_valid_position` call."""
     inputs = question.inputs
     world = world_of(inputs["cells"], question.geometries)
-    result, trace = run(resolve, world, query_row(inputs, world.cell_index(inputs["begin_cell"])))
+    result, trace = run(RESOLVE, world, query_row(inputs, world.cell_index(inputs["begin_cell"])))
     outcome: Fields = {"result": int(result["result"]), "trace": trace}
     outcome |= state_block(result, world)
     geometry = walkable_geometry(result, world)

@@ -16,7 +16,7 @@ from conformance.candidates.engine_ops.world_cache import world_of
 from conformance.candidates.engine_ops.worlds import engine_world
 from engine import layout as at
 from engine.constants import CONTACT, EPS, FLOOR_Z, ON_WALKABLE
-from engine.kernels.resolving import resolve
+from engine.kernels.program import RESOLVE
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Mapping
@@ -82,7 +82,7 @@ class Walker:
             return {"r": "skip"}
         self.row["end"] = target
         self._seed(contact_ok=bool(tick.get("contact_ok", 1)))
-        result, trace, self.touched = run_noting(resolve, self.world, self.row)
+        result, trace, self.touched = run_noting(RESOLVE, self.world, self.row)
         fields: Fields = {"r": int(result["result"]), "t": trace}
         if not result["result"]:
             self.row["start"][ROTATION] = target[ROTATION]

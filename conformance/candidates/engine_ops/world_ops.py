@@ -8,7 +8,7 @@ from conformance.candidates.engine_ops.rows import query_row
 from conformance.candidates.engine_ops.running import run_noting
 from conformance.candidates.engine_ops.state_block import object_block, state_block, walkable_geometry
 from conformance.candidates.engine_ops.worlds import engine_world
-from engine.kernels.resolving import resolve
+from engine.kernels.program import RESOLVE
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -22,7 +22,7 @@ def _world_transition(query: Query) -> Fields:
     world = engine_world(inputs["world"], query.geometries)
     begin = inputs["to"] if inputs["from"] is None else inputs["from"]
     row = query_row(inputs, world.cell_index(begin["cell"]))
-    result, trace, touched = run_noting(resolve, world, row)
+    result, trace, touched = run_noting(RESOLVE, world, row)
     outcome: Fields = {"result": int(result["result"]), "trace": trace, **state_block(result, world)}
     geometry = walkable_geometry(result, world)
     if geometry is not None:
