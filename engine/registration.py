@@ -10,14 +10,8 @@ from engine import layout as at
 from engine.constants import DUMMY_RADIUS, HAS_PHYSICS_BSP
 from engine.errors import WorldError
 from engine.float32 import float32_array
-from engine.kernels.registration import (
-    REACH_BOX,
-    REACH_FLAT,
-    REACH_SIZE,
-    REACH_SPHERE,
-    find_ball_cell_list,
-    find_bbox_cell_list,
-)
+from engine.kernels.reach import REACH_BOX, REACH_FLAT, REACH_SIZE, REACH_SPHERE
+from engine.kernels.registration import find_ball_cell_list, find_bbox_cell_list
 from engine.pose import position_rows
 
 if TYPE_CHECKING:
@@ -151,7 +145,7 @@ def _balls_of(thing: Obstacle) -> Sequence[Sequence[float]]:
 
 
 class _Parts:
-    """The parts of objects that have geometry, as `engine.kernels.registration` reads them."""
+    """The parts of objects that have geometry, as `engine.kernels.reach` reads them."""
 
     def __init__(self, objects: Sequence[Obstacle]) -> None:
         lists = [_parts_of(thing) for thing in objects]

@@ -1,16 +1,22 @@
-"""Many queries on several threads: consecutive ones together, each part in a row of state of its own."""
+"""Many queries on several threads: consecutive ones together, each part in a row of state of its own.
+
+Parts are taken in turn, not dealt out: queries differ in cost, and a thread may lose its core for a while.
+"""
 
 from __future__ import annotations
 
 from concurrent.futures import ThreadPoolExecutor
-from itertools import pairwise
-from typing import TYPE_CHECKING
+from threading import Lock
+from typing import TYPE_CHECKING, Final
 
 from engine.errors import QueryError
 from engine.tracing import is_recording
 
 if TYPE_CHECKING:
-    from collections.abc import Callable
+    from collections.abc import Callable, Iterator
+
+PARTS: Final = 16
+"""Parts that a thread would do if all went at the same speed: the last one to finish is that much behind."""
 
 
 def in_parts(work: Callable[[slice], None], count: int, threads: int) -> None:
@@ -23,7 +29,7 @@ def in_parts(work: Callable[[slice], None], count: int, threads: int) -> None:
     count : int
         How many pieces there are.
     threads : int
-        How many share them. While writes are recorded there is only the calling one.
+        How many share them, the calling one among them. While writes are recorded there is only the calling one.
 
     Raises
     ------
@@ -32,12 +38,30 @@ def in_parts(work: Callable[[slice], None], count: int, threads: int) -> None:
     """
     if threads < 1:
         raise QueryError("threads", f"{threads} where at least 1 is needed")
-    parts = 1 if is_recording() else min(threads, count)
-    if parts <= 1:
+    sharing = 1 if is_recording() else min(threads, count)
+    if sharing <= 1:
         work(slice(0, count))
         return
-    ends = [count * part // parts for part in range(parts + 1)]
-    slices = [slice(first, last) for first, last in pairwise(ends)]
-    with ThreadPoolExecutor(parts) as pool:
-        for done in [pool.submit(work, part) for part in slices]:
-            done.result()
+    parts = _parts(count, sharing * PARTS)
+    lock = Lock()
+
+    def share() -> None:
+        while True:
+            with lock:
+                part = next(parts, None)
+            if part is None:
+                return
+            work(part)
+
+    with ThreadPoolExecutor(sharing - 1) as others:
+        helping = [others.submit(share) for _ in range(sharing - 1)]
+        share()
+        for helper in helping:
+            helper.result()
+
+
+def _parts(count: int, number: int) -> Iterator[slice]:
+    """Divide so many pieces into about so many parts; none is empty."""
+    size = -(-count // number)
+    for first in range(0, count, size):
+        yield slice(first, min(first + size, count))

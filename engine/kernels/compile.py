@@ -37,7 +37,7 @@ OPTIONS: Final[dict[str, Any]] = {
 
 
 KERNELS: Final = Path(__file__).parent
-COMPILED_IN: Final = ("body_layout.py", "constants.py", "layout.py")
+COMPILED_IN: Final = ("body_layout.py", "constants.py", "layout/*.py")
 """Files beside that folder whose constants kernels hold."""
 
 
@@ -45,7 +45,8 @@ COMPILED_IN: Final = ("body_layout.py", "constants.py", "layout.py")
 def source_digest(kernels: Path = KERNELS) -> str:
     """Return the digest of all files that compiled code depends on."""
     digest = hashlib.sha256()
-    for path in sorted([*kernels.glob("*.py"), *(kernels.parent / name for name in COMPILED_IN)]):
+    constants = [path for pattern in COMPILED_IN for path in kernels.parent.glob(pattern)]
+    for path in sorted([*kernels.glob("*.py"), *constants]):
         digest.update(path.name.encode("utf-8"))
         digest.update(path.read_bytes())
     return digest.hexdigest()

@@ -64,7 +64,7 @@ def test_the_digest_covers_kernels_layout_and_constants(tmp_path: Path) -> None:
     (copy / "world.py").write_text("", encoding="utf-8")
     source_digest.cache_clear()
     assert source_digest(copy / "kernels") == before
-    for name in ("layout.py", "body_layout.py", "constants.py", "kernels/rounding.py"):
+    for name in ("layout/world.py", "body_layout.py", "constants.py", "kernels/rounding.py"):
         file = copy / name
         file.write_text(file.read_text(encoding="utf-8") + "\n# changed\n", encoding="utf-8")
         source_digest.cache_clear()

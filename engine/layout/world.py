@@ -1,0 +1,166 @@
+"""Where things lie in a world's two arrays: floats and integers."""
+
+from __future__ import annotations
+
+import math
+from typing import Final
+
+from engine.constants import frozen
+from engine.layout.rows import POSITION_SIZE, Row
+
+# --- the world's arrays ----------------------------------------------------------------------------
+# floats: node k at NODE_FLOATS * k (splitting plane, bounding sphere), then polygon, plane, cell, part,
+# object and shape records. ints: the header below in the place of the first nodes, node k at
+# NODE_INTS * k, then records and lists. A leaf keeps no plane; a polygon is named by the offset of its
+# record.
+NODE_FLOATS: Final = frozen(8)
+NODE_SPHERE: Final = frozen(4)
+NODE_INTS: Final = frozen(4)
+NODE_KIND: Final = frozen(0)
+NODE_POSITIVE: Final = frozen(1)
+NODE_NEGATIVE: Final = frozen(2)
+LEAF_FIRST: Final = frozen(1)
+LEAF_COUNT: Final = frozen(2)
+KIND_NODE: Final = frozen(0)
+KIND_LEAF: Final = frozen(1)
+KIND_SOLID_LEAF: Final = frozen(2)
+NOT_SOLID: Final = frozen(0)
+NO_TREE: Final = frozen(0)
+
+POLYGON_COUNT: Final = frozen(4)
+POLYGON_ID: Final = frozen(5)
+POLYGON_SHAPE: Final = frozen(6)
+POLYGON_CORNERS: Final = frozen(8)
+"""A polygon record: plane, number of vertices, its id, its shape's index, pad, corners, edges."""
+CORNER_SIZE: Final = frozen(6)
+"""A vertex x y z, and the in-plane normal of the edge from it to the next one, as PP-2 rounds it."""
+CORNER_NORMAL: Final = frozen(3)
+EDGE_SIZE: Final = frozen(8)
+"""Behind the corners, of the edge from each vertex to the next, what PH-4 computes without the sphere:
+the edge x y z, its in-plane normal x y z, and the squared lengths of the normal and of the edge."""
+EDGE_NORMAL: Final = frozen(3)
+EDGE_NORMAL_SQUARED: Final = frozen(6)
+EDGE_SQUARED: Final = frozen(7)
+
+_header = Row()
+
+WORLD_CELLS: Final = _header.field("num_environment_cells")
+"""Cells below this number are environment cells, the others land cells."""
+WORLD_CELL_FLOATS: Final = _header.field("cell_floats")
+WORLD_CELL_INTS: Final = _header.field("cell_ints")
+WORLD_OBJECT_FLOATS: Final = _header.field("object_floats")
+WORLD_OBJECT_INTS: Final = _header.field("object_ints")
+WORLD_PART_FLOATS: Final = _header.field("part_floats")
+WORLD_PART_INTS: Final = _header.field("part_ints")
+WORLD_BUILDINGS: Final = _header.field("building_ints")
+WORLD_IDS: Final = _header.field("ids")
+"""Where the table from cell ids to cells begins (`engine.kernels.cell_ids`)."""
+WORLD_IDS_MASK: Final = _header.field("ids_mask")
+"""Number of entries of that table, a power of two, less one."""
+WORLD_STACK: Final = _header.field("stack")
+"""Where in a row the stack of a traversal begins, and then the cell list, the touched objects, the trace."""
+WORLD_CELL_LIST: Final = _header.field("cell_list")
+WORLD_TOUCHED: Final = _header.field("touched")
+WORLD_ROW: Final = _header.field("row")
+"""How long a row is without its trace."""
+
+FIRST_NODE: Final = frozen(math.ceil(_header.size / NODE_INTS))
+"""The nodes before it do not exist: their integers are the header, and 0 says `no tree`."""
+
+CELL_FLOATS: Final = POSITION_SIZE + 1
+CELL_ID: Final = POSITION_SIZE
+CELL_INTS: Final = frozen(10)
+CELL_OBJECTS: Final = frozen(0)
+"""Where the list of the cell's objects begins, as indices; those with a parent are not in it."""
+CELL_OBJECT_COUNT: Final = frozen(1)
+CELL_RESTRICTION: Final = frozen(9)
+"""Where the record begins of what restricts the cell, or `NO_RESTRICTION`."""
+# An environment cell:
+CELL_TREE: Final = frozen(2)
+CELL_PLANES: Final = frozen(3)
+CELL_PLANE_COUNT: Final = frozen(4)
+CELL_PORTALS: Final = frozen(5)
+CELL_PORTAL_COUNT: Final = frozen(6)
+CELL_STAB: Final = frozen(7)
+"""Where the list of cell ids begins that may be visible from the cell."""
+CELL_STAB_COUNT: Final = frozen(8)
+# A land cell:
+LAND_TERRAIN: Final = frozen(2)
+"""Offset of the record of its first triangle; the second one's follows."""
+LAND_BUILDING: Final = frozen(3)
+LAND_WATER: Final = frozen(4)
+"""Its water type: `engine.constants.NOT_WATER`, ..."""
+LAND_BLOCK_WATER: Final = frozen(5)
+"""The water type of its whole block."""
+LAND_WET_CORNERS: Final = frozen(6)
+"""Bits: 1 south-west, 2 north-west, 4 south-east, 8 north-east corner is water."""
+
+RESTRICTION_KNOWN: Final = frozen(0)
+"""Whether what restricts the cell is there and can be asked."""
+RESTRICTION_COUNT: Final = frozen(1)
+"""How many movers it admits; their ids follow."""
+RESTRICTION_IDS: Final = frozen(2)
+NO_RESTRICTION: Final = frozen(0)
+
+NO_PLANES: Final = frozen(-1)
+"""Containment plane count of a cell that contains every point."""
+NO_PORTALS: Final = frozen(-1)
+"""Portal count of a cell without a portal array, which contains no point (09, 4.1)."""
+NO_BUILDING: Final = frozen(-1)
+
+TERRAIN_POLYGON: Final = POLYGON_CORNERS + 3 * (CORNER_SIZE + EDGE_SIZE)
+"""Size of a triangle's record."""
+LAND_CELLS: Final = frozen(64)
+"""Land cells of a block; cell 8 * i + j lies in column i from the west, row j from the south."""
+
+PORTAL_INTS: Final = frozen(3)
+PORTAL_CELL: Final = frozen(0)
+"""Index of the cell behind a portal; minus its id if it is not in the world; or `EXTERIOR`."""
+PORTAL_SIDE: Final = frozen(1)
+"""The cell's interior is on the positive (0) or negative (1) side of the portal's plane."""
+PORTAL_PLANE: Final = frozen(2)
+"""Offset of the plane, in cell space."""
+EXTERIOR: Final = frozen(-0xFFFF_FFFF)
+"""Retail's id of what is behind a door (09, 2.1)."""
+
+PART_FLOATS: Final = POSITION_SIZE + 1
+PART_SCALE: Final = POSITION_SIZE
+PART_INTS: Final = frozen(1)
+PART_TREE: Final = frozen(0)
+
+BUILDING_INTS: Final = frozen(3)
+BUILDING_PART: Final = frozen(0)
+"""Index of its part 0, or `NO_PART`."""
+BUILDING_PORTALS: Final = frozen(1)
+BUILDING_PORTAL_COUNT: Final = frozen(2)
+NO_PART: Final = frozen(-1)
+
+BUILDING_PORTAL_INTS: Final = frozen(2)
+BUILDING_PORTAL_CELL: Final = frozen(0)
+"""As `PORTAL_CELL`; never `EXTERIOR`."""
+BUILDING_PORTAL_OTHER: Final = frozen(1)
+"""Index of the portal in the cell behind it, negative for none."""
+
+OBJECT_FLOATS: Final = POSITION_SIZE + 1
+OBJECT_SCALE: Final = POSITION_SIZE
+OBJECT_INTS: Final = frozen(6)
+OBJECT_ID: Final = frozen(0)
+"""0 if it has none."""
+OBJECT_STATE: Final = frozen(1)
+"""PhysicsState bits."""
+OBJECT_WEENIE: Final = frozen(2)
+"""Bits of `engine.constants.WEENIE_PRESENT`, ..."""
+OBJECT_FAMILY: Final = frozen(3)
+"""Which of its shapes are tested: `FAMILY_NONE`, ..."""
+OBJECT_FIRST: Final = frozen(4)
+"""Index of the first part, or offset of the first record of the other families."""
+OBJECT_COUNT: Final = frozen(5)
+
+FAMILY_NONE: Final = frozen(0)
+FAMILY_PARTS: Final = frozen(1)
+FAMILY_CYLSPHERES: Final = frozen(2)
+FAMILY_SPHERES: Final = frozen(3)
+
+CYLSPHERE_SIZE: Final = frozen(5)
+"""A cylsphere record: low point x y z, radius, height, in object space, unscaled."""
+CYLSPHERE_HEIGHT: Final = frozen(4)
