@@ -15,7 +15,7 @@ from engine.tracing import is_recording
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterator
 
-PARTS: Final = 16
+PARTS: Final = 4
 """Parts that a thread would do if all went at the same speed: the last one to finish is that much behind."""
 
 
@@ -29,7 +29,7 @@ def in_parts(work: Callable[[slice], None], count: int, threads: int) -> None:
     count : int
         How many pieces there are.
     threads : int
-        How many share them, the calling one among them. While writes are recorded there is only the calling one.
+        How many share them, the calling one among them. While writes are recorded there is no other.
 
     Raises
     ------

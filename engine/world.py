@@ -25,8 +25,8 @@ if TYPE_CHECKING:
     from engine.landscape import Building, LandBlock
     from engine.objects import Obstacle
 
-_CACHE_LINE: Final = 8
-"""Numbers in a cache line of 64 bytes, the longest there is on desktop and server machines but Apple's."""
+_CACHE_LINE: Final = 16
+"""Numbers in a cache line, which has 64 bytes on x86 and up to 128 elsewhere."""
 _MAX_OUTSIDE: Final = 9 * 10
 """Most land cells that are listed at once: nine about each of the ten balls of an object (09, 5.4)."""
 

@@ -74,12 +74,12 @@ def test_no_threads_are_no_number_of_threads() -> None:
 
 
 def test_an_error_in_a_thread_is_raised() -> None:
-    """Not swallowed with the thread."""
+    """Not swallowed with the thread; of two, either."""
 
     def fail(part: slice) -> None:
         raise ArithmeticError(str(part.start))
 
-    with pytest.raises(ArithmeticError, match="0"):
+    with pytest.raises(ArithmeticError, match=r"[01]"):
         in_parts(fail, 4, 2)
 
 
