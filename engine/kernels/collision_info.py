@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING
 
 from engine.constants import OK
 from engine.kernels.compile import inlined, kernel
-from engine.kernels.vector import copy, normalize_check_small, store
+from engine.kernels.vector import copy_four, normalize_check_small, store
 from engine.layout import (
     COLLIDED_WITH_ENVIRONMENT,
     COLLISION_NORMAL,
@@ -21,7 +21,6 @@ from engine.layout import (
     LAST_KNOWN_VALID,
     NO_OBJECT,
     NUM_COLLIDE_OBJECT,
-    PLANE_SIZE,
     SLIDING_NORMAL,
     SLIDING_VALID,
     WORLD_TOUCHED,
@@ -116,7 +115,7 @@ def sliding_reference(s: Array) -> Vector:
 @inlined
 def copy_plane(s: Array, to: int, source: int) -> None:
     """Copy a plane bit by bit."""
-    copy(s, to, s, source, PLANE_SIZE)
+    copy_four(s, to, s, source)
 
 
 @kernel

@@ -16,7 +16,7 @@ from engine.kernels.path import (
 )
 from engine.kernels.rounding import f32
 from engine.kernels.stepping import precipice_slide, step_down, step_limits
-from engine.kernels.vector import copy, load
+from engine.kernels.vector import copy_four, load
 from engine.layout import (
     CELL_ARRAY_VALID,
     CONTACT_PLANE,
@@ -28,7 +28,6 @@ from engine.layout import (
     NUM_SPHERE,
     OI_STATE,
     RADIUS,
-    SPHERE_SIZE,
     STEP_DOWN_HEIGHT,
     WALKABLE,
     WALKABLE_ALLOWANCE,
@@ -136,6 +135,6 @@ def _edge_behind(wf: Array, wi: Ints, s: Array, height: float, z: float) -> tupl
         s[CELL_ARRAY_VALID] = 1.0
         return True, COLLIDED
     cache_localspace_sphere(s, s, WALKABLE_POS, s[WALKABLE_SCALE])
-    copy(s, WALKABLE_CHECK_POS, s, LOCALSPACE_SPHERE, SPHERE_SIZE)
+    copy_four(s, WALKABLE_CHECK_POS, s, LOCALSPACE_SPHERE)
     ts = precipice_slide(wf, s)
     return ts == COLLIDED, ts

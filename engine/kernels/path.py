@@ -8,7 +8,7 @@ from engine.constants import FIRST_INDOOR, PLACEMENT_INSERT, TRANSITION_INSERT
 from engine.kernels.compile import entry, inlined, kernel
 from engine.kernels.position import block_offset, position_localtolocal
 from engine.kernels.rounding import f32
-from engine.kernels.vector import copy, load, store
+from engine.kernels.vector import copy_position, copy_vector, load, store
 from engine.layout import (
     BACKUP_CELL,
     BACKUP_CHECK_POS,
@@ -39,11 +39,9 @@ from engine.layout import (
     NEG_STEP_UP,
     NUM_SPHERE,
     ORIGIN,
-    POSITION_SIZE,
     RADIUS,
     SPHERE_SIZE,
     STEP_UP_NORMAL,
-    VECTOR_SIZE,
     WALK_INTERP,
     WALKABLE,
     WALKABLE_CHECK_POS,
@@ -63,7 +61,7 @@ def init_path(s: Array) -> None:
     retail: SPHEREPATH::init_path 0x0050CE20, SPP-1...SPP-4
     """
     placed = s[HAS_BEGIN_POS] == 0.0
-    copy(s, CURR_POS, s, END_POS if placed else BEGIN_POS, POSITION_SIZE)
+    copy_position(s, CURR_POS, s, END_POS if placed else BEGIN_POS)
     s[CURR_CELL] = s[BEGIN_CELL]
     cache_global_curr_center(s)
     s[INSERT_TYPE] = PLACEMENT_INSERT if placed else TRANSITION_INSERT
@@ -172,7 +170,7 @@ def cache_localspace_sphere(s: Array, a: Array, p: int, scale: float) -> None:
         store(s, at, x, y, z)
         x, y, z = _localspace_point(a, p, s, CURR_POS, local, inv)
         store(s, LOCALSPACE_CURR_CENTER + 3 * i, x, y, z)
-    copy(s, LOCALSPACE_POS, a, p, POSITION_SIZE)
+    copy_position(s, LOCALSPACE_POS, a, p)
     m = LOCALSPACE_POS + MATRIX
     ux = f32((s[m + 1] + s[m]) * 0.0 + s[m + 2])
     uy = f32((s[m + 4] + s[m + 3]) * 0.0 + s[m + 5])
@@ -190,7 +188,7 @@ def set_check_pos(s: Array, p: int, cell: float) -> None:
 
     retail: SPHEREPATH::set_check_pos 0x0050A8B0, 04 4
     """
-    copy(s, CHECK_POS, s, p, POSITION_SIZE)
+    copy_position(s, CHECK_POS, s, p)
     s[CHECK_CELL] = cell
     s[CELL_ARRAY_VALID] = 0.0
     cache_global_sphere(s)
@@ -203,7 +201,7 @@ def save_check_pos(s: Array) -> None:
     retail: SPHEREPATH::save_check_pos 0x0050A880, 04 4
     """
     s[BACKUP_CELL] = s[CHECK_CELL]
-    copy(s, BACKUP_CHECK_POS, s, CHECK_POS, POSITION_SIZE)
+    copy_position(s, BACKUP_CHECK_POS, s, CHECK_POS)
 
 
 @kernel
@@ -260,6 +258,6 @@ def set_walkable(s: Array, x: float, y: float, z: float, r: float, poly: int, sc
     store(s, WALKABLE_CHECK_POS, x, y, z)
     s[WALKABLE_CHECK_POS + RADIUS] = r
     s[WALKABLE] = poly
-    copy(s, WALKABLE_UP, s, LOCALSPACE_Z, VECTOR_SIZE)
-    copy(s, WALKABLE_POS, s, LOCALSPACE_POS, POSITION_SIZE)
+    copy_vector(s, WALKABLE_UP, s, LOCALSPACE_Z)
+    copy_position(s, WALKABLE_POS, s, LOCALSPACE_POS)
     s[WALKABLE_SCALE] = scale

@@ -10,7 +10,7 @@ from engine.kernels.compile import entry, inlined, kernel
 from engine.kernels.frame import frame_cache
 from engine.kernels.path import init_path
 from engine.kernels.rounding import f32
-from engine.kernels.vector import copy, load, store
+from engine.kernels.vector import copy, copy_four, copy_vector, load, store
 
 if TYPE_CHECKING:
     from engine.kernels.types import Array
@@ -58,8 +58,8 @@ def load_pose(s: Array, p: int, q: Array, pose: int) -> None:
     retail: Frame::UnPack 0x005351A0, 01 4.4
     """
     s[p] = q[pose]
-    copy(s, p + at.QUATERNION, q, pose + 1, at.QUATERNION_SIZE)
-    copy(s, p + at.ORIGIN, q, pose + 5, at.VECTOR_SIZE)
+    copy_four(s, p + at.QUATERNION, q, pose + 1)
+    copy_vector(s, p + at.ORIGIN, q, pose + 5)
     frame_cache(s, p)
 
 
@@ -67,8 +67,8 @@ def load_pose(s: Array, p: int, q: Array, pose: int) -> None:
 def store_pose(out: Array, pose: int, s: Array, p: int) -> None:
     """Make a pose of a position."""
     out[pose] = s[p]
-    copy(out, pose + 1, s, p + at.QUATERNION, at.QUATERNION_SIZE)
-    copy(out, pose + 5, s, p + at.ORIGIN, at.VECTOR_SIZE)
+    copy_four(out, pose + 1, s, p + at.QUATERNION)
+    copy_vector(out, pose + 5, s, p + at.ORIGIN)
 
 
 @kernel
@@ -162,9 +162,9 @@ def _report_path(wf: Array, s: Array, out: Array) -> None:
     out[at.R_WALKABLE_ALLOWANCE] = s[at.WALKABLE_ALLOWANCE]
     out[at.R_COLLIDE] = s[at.COLLIDE]
     out[at.R_STEP_UP] = s[at.STEP_UP]
-    copy(out, at.R_STEP_UP_NORMAL, s, at.STEP_UP_NORMAL, at.VECTOR_SIZE)
+    copy_vector(out, at.R_STEP_UP_NORMAL, s, at.STEP_UP_NORMAL)
     out[at.R_NEG_POLY_HIT] = s[at.NEG_POLY_HIT]
     out[at.R_NEG_STEP_UP] = s[at.NEG_STEP_UP]
-    copy(out, at.R_NEG_COLLISION_NORMAL, s, at.NEG_COLLISION_NORMAL, at.VECTOR_SIZE)
+    copy_vector(out, at.R_NEG_COLLISION_NORMAL, s, at.NEG_COLLISION_NORMAL)
     out[at.R_OBSTRUCTION_ETHEREAL] = s[at.OBSTRUCTION_ETHEREAL]
     out[at.R_HITS_INTERIOR_CELL] = s[at.HITS_INTERIOR_CELL]

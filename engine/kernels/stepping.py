@@ -30,7 +30,7 @@ from engine.kernels.polygon_support import polygon_check_walkable, polygon_find_
 from engine.kernels.probing import probe
 from engine.kernels.rounding import f32
 from engine.kernels.sphere import movement_along, slide_sphere
-from engine.kernels.vector import copy, load, store
+from engine.kernels.vector import copy_position, load, store
 from engine.layout import (
     BACKUP,
     CELL_ARRAY_VALID,
@@ -46,7 +46,6 @@ from engine.layout import (
     NUM_SPHERE,
     OI_STATE,
     ORIGIN,
-    POSITION_SIZE,
     RADIUS,
     REQUESTED_NORMAL,
     SAVED_POS,
@@ -126,7 +125,7 @@ def check_walkable(wf: Array, wi: Ints, s: Array, z: float) -> bool:
     """
     if not on_walkable(s) or _check_walkables(wf, s):
         return True
-    copy(s, SAVED_POS, s, CHECK_POS, POSITION_SIZE)
+    copy_position(s, SAVED_POS, s, CHECK_POS)
     cell = s[CHECK_CELL]
     s[WALKABLE_ALLOWANCE] = z
     s[CHECK_WALKABLE] = 1.0

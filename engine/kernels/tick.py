@@ -55,7 +55,7 @@ from engine.kernels.tick_position import set_position_internal
 from engine.kernels.tick_seed import seed_transition
 from engine.kernels.tick_velocity import has_bit, set_bit, set_velocity, update_physics_internal
 from engine.kernels.transition import find_valid_position
-from engine.kernels.vector import copy, load, store
+from engine.kernels.vector import copy_vector, load, store
 from engine.layout import (
     COLLIDED_WITH_ENVIRONMENT,
     COLLISION_NORMAL,
@@ -73,7 +73,6 @@ from engine.layout import (
     STATUS,
     STATUS_OK,
     TRACE_LENGTH,
-    VECTOR_SIZE,
 )
 
 if TYPE_CHECKING:
@@ -168,7 +167,7 @@ def _only_turn(b: Array) -> None:
 
     retail: UO-4, UO-5, UO-8
     """
-    copy(b, B_WANTED + ORIGIN, b, B_ORIGIN, VECTOR_SIZE)
+    copy_vector(b, B_WANTED + ORIGIN, b, B_ORIGIN)
     set_frame(b, B_POSITION, b, B_WANTED)
     store(b, B_CACHED_VELOCITY, 0.0, 0.0, 0.0)
 
@@ -235,7 +234,7 @@ def _report(s: Array, b: Array) -> None:
     b[B_STATUS] = s[STATUS]
     b[B_KILL_VELOCITY] = s[KILL_VELOCITY]
     b[B_COLLISION_NORMAL_VALID] = s[COLLISION_NORMAL_VALID]
-    copy(b, B_COLLISION_NORMAL, s, COLLISION_NORMAL, VECTOR_SIZE)
+    copy_vector(b, B_COLLISION_NORMAL, s, COLLISION_NORMAL)
     b[B_FRAMES_STATIONARY_FALL] = s[FRAMES_STATIONARY_FALL]
     b[B_COLLIDED_WITH_ENVIRONMENT] = s[COLLIDED_WITH_ENVIRONMENT]
     b[B_NODES_VISITED] = s[NODES_VISITED]

@@ -28,7 +28,7 @@ from engine.kernels.land_defs import adjust_to_outside
 from engine.kernels.tick_collisions import respond, track_touched_objects
 from engine.kernels.tick_contact import set_on_walkable
 from engine.kernels.tick_velocity import calc_acceleration, has_bit, set_bit
-from engine.kernels.vector import copy
+from engine.kernels.vector import copy_four, copy_position, copy_vector
 from engine.layout import (
     CELL_FLOATS,
     CELL_ID,
@@ -39,11 +39,8 @@ from engine.layout import (
     CURR_CELL,
     CURR_POS,
     NO_CELL,
-    PLANE_SIZE,
-    POSITION_SIZE,
     SLIDING_NORMAL,
     SLIDING_VALID,
-    VECTOR_SIZE,
     WORLD_CELL_FLOATS,
 )
 
@@ -78,13 +75,13 @@ def take_over(s: Array, b: Array, cell_id: float) -> None:
     b[B_CELL] = s[CURR_CELL]
     set_frame(b, B_POSITION, s, CURR_POS)
     b[B_CONTACT_CELL_ID] = s[CONTACT_CELL_ID]
-    copy(b, B_CONTACT_PLANE, s, CONTACT_PLANE, PLANE_SIZE)
+    copy_four(b, B_CONTACT_PLANE, s, CONTACT_PLANE)
     contact = s[CONTACT_VALID] != 0.0
     set_bit(b, B_TRANSIENT, CONTACT_TS, contact)
     calc_acceleration(b)
     set_bit(b, B_TRANSIENT, WATER_CONTACT_TS, s[CONTACT_IS_WATER] != 0.0)
     set_on_walkable(b, contact and not b[B_CONTACT_PLANE + 2] < FLOOR_Z)
-    copy(b, B_SLIDING_NORMAL, s, SLIDING_NORMAL, VECTOR_SIZE)
+    copy_vector(b, B_SLIDING_NORMAL, s, SLIDING_NORMAL)
     set_bit(b, B_TRANSIENT, SLIDING_TS, s[SLIDING_VALID] != 0.0)
 
 
@@ -95,7 +92,7 @@ def become_lost(s: Array, b: Array) -> None:
     retail: CPhysicsObj::SetPositionInternal 0x00515330, WB-2
     """
     b[B_CELL] = NO_CELL
-    copy(b, B_POSITION, s, CURR_POS, POSITION_SIZE)
+    copy_position(b, B_POSITION, s, CURR_POS)
     if (int(b[B_POSITION]) & 0xFFFF) < FIRST_INDOOR:
         adjust_to_outside(b, B_POSITION)
     set_bit(b, B_TRANSIENT, ACTIVE_TS, False)

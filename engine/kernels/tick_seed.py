@@ -57,7 +57,7 @@ from engine.kernels.path import init_path
 from engine.kernels.query import clear, init_spheres, load_pose
 from engine.kernels.tick_contact import leaves_contact
 from engine.kernels.tick_velocity import has_bit
-from engine.kernels.vector import copy, store
+from engine.kernels.vector import copy_four, copy_position, store
 from engine.layout import (
     BEGIN_CELL,
     BEGIN_POS,
@@ -84,8 +84,6 @@ from engine.layout import (
     OI_STATE,
     OI_STEP_DOWN,
     PLACEMENT_ALLOWS_SLIDING,
-    PLANE_SIZE,
-    POSITION_SIZE,
     RADIUS,
     STEP_DOWN_HEIGHT,
     STEP_UP_HEIGHT,
@@ -108,8 +106,8 @@ def seed_transition(s: Array, b: Array, admin_move: bool) -> int:
     s[PLACEMENT_ALLOWS_SLIDING] = 1.0
     s[HAS_BEGIN_POS] = 1.0
     s[BEGIN_CELL] = b[B_CELL]
-    copy(s, BEGIN_POS, b, B_POSITION, POSITION_SIZE)
-    copy(s, END_POS, b, B_WANTED, POSITION_SIZE)
+    copy_position(s, BEGIN_POS, b, B_POSITION)
+    copy_position(s, END_POS, b, B_WANTED)
     init_path(s)
     if has_bit(b, B_TRANSIENT, STATIONARY_STUCK_TS):
         s[FRAMES_STATIONARY_FALL] = 3.0
@@ -167,14 +165,14 @@ def _seed_contact(s: Array, b: Array) -> int:
     """
     water = float(int(b[B_TRANSIENT]) & WATER_CONTACT_TS)
     s[LAST_KNOWN_VALID] = 1.0
-    copy(s, LAST_KNOWN_PLANE, b, B_CONTACT_PLANE, PLANE_SIZE)
+    copy_four(s, LAST_KNOWN_PLANE, b, B_CONTACT_PLANE)
     s[LAST_KNOWN_IS_WATER] = water
     if leaves_contact(b):
         s[CONTACT_CELL_ID] = b[B_CONTACT_CELL_ID]
         return 0
     s[LAST_KNOWN_CELL_ID] = b[B_CONTACT_CELL_ID]
     s[CONTACT_VALID] = 1.0
-    copy(s, CONTACT_PLANE, b, B_CONTACT_PLANE, PLANE_SIZE)
+    copy_four(s, CONTACT_PLANE, b, B_CONTACT_PLANE)
     s[CONTACT_IS_WATER] = water
     s[CONTACT_CELL_ID] = b[B_CONTACT_CELL_ID]
     return CONTACT | ON_WALKABLE if has_bit(b, B_TRANSIENT, ON_WALKABLE_TS) else CONTACT

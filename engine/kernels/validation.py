@@ -30,7 +30,7 @@ from engine.kernels.frame import frame_is_equal
 from engine.kernels.path import cache_global_curr_center, set_check_pos
 from engine.kernels.probing import probe_into_cell, probe_other_cells
 from engine.kernels.rounding import f32
-from engine.kernels.vector import copy, load
+from engine.kernels.vector import copy_position, load
 from engine.layout import (
     CHECK_CELL,
     CHECK_POS,
@@ -55,7 +55,6 @@ from engine.layout import (
     NO_CELL,
     OI_STATE,
     PLACEMENT_ALLOWS_SLIDING,
-    POSITION_SIZE,
     RADIUS,
 )
 
@@ -96,7 +95,7 @@ def accept_check_pos(s: Array) -> None:
 
     retail: VT-3, VP-2
     """
-    copy(s, CURR_POS, s, CHECK_POS, POSITION_SIZE)
+    copy_position(s, CURR_POS, s, CHECK_POS)
     s[CURR_CELL] = s[CHECK_CELL]
     cache_global_curr_center(s)
 

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING
 from engine.constants import EPS
 from engine.kernels.compile import entry, inlined
 from engine.kernels.rounding import f32
+from engine.layout import MATRIX, ORIGIN, QUATERNION
 
 if TYPE_CHECKING:
     from engine.kernels.types import Array, Vector
@@ -50,7 +51,46 @@ def store(a: Array, at: int, x: float, y: float, z: float) -> None:
 
 
 @inlined
+def copy_vector(a: Array, at: int, b: Array, source: int) -> None:
+    """Copy three consecutive numbers: a struct assignment."""
+    x, y, z = load(b, source)
+    store(a, at, x, y, z)
+
+
+@inlined
+def copy_four(a: Array, at: int, b: Array, source: int) -> None:
+    """Copy a quaternion, a plane, or a sphere: a struct assignment."""
+    w = b[source]
+    x, y, z = load(b, source + 1)
+    a[at] = w
+    store(a, at + 1, x, y, z)
+
+
+@inlined
+def copy_position(a: Array, at: int, b: Array, source: int) -> None:
+    """Copy a position: a struct assignment.
+
+    Number by number, because its parts were written so a moment ago: a block that is read before all of
+    its parts have reached the cache has to wait for them.
+    """
+    cell = b[source]
+    w = b[source + QUATERNION]
+    qx, qy, qz = load(b, source + QUATERNION + 1)
+    xx, xy, xz = load(b, source + MATRIX)
+    yx, yy, yz = load(b, source + MATRIX + 3)
+    zx, zy, zz = load(b, source + MATRIX + 6)
+    ox, oy, oz = load(b, source + ORIGIN)
+    a[at] = cell
+    a[at + QUATERNION] = w
+    store(a, at + QUATERNION + 1, qx, qy, qz)
+    store(a, at + MATRIX, xx, xy, xz)
+    store(a, at + MATRIX + 3, yx, yy, yz)
+    store(a, at + MATRIX + 6, zx, zy, zz)
+    store(a, at + ORIGIN, ox, oy, oz)
+
+
+@inlined
 def copy(a: Array, at: int, b: Array, source: int, size: int) -> None:
-    """Copy `size` consecutive numbers: a struct assignment."""
+    """Copy a block of `size` consecutive numbers."""
     for i in range(size):
         a[at + i] = b[source + i]
