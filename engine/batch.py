@@ -130,7 +130,8 @@ def find_object_collisions_many(
 def _run(job: int, world: World, rows: Rows, threads: int) -> Rows:
     if rows.dtype != at.QUERY_DTYPE:
         raise QueryError("rows", "not of engine.layout.QUERY_DTYPE")
-    queries = np.ascontiguousarray(rows).view(np.float64).reshape(len(rows), at.QUERY_SIZE)
+    # Of rows that may only be read Numba would compile everything once more.
+    queries = np.require(rows, requirements=("C", "W")).view(np.float64).reshape(len(rows), at.QUERY_SIZE)
     results = np.zeros(len(rows), dtype=at.RESULT_DTYPE)
     answers = results.view(np.float64).reshape(len(rows), at.RESULT_SIZE)
     run = runnable(program.run)

@@ -18,13 +18,14 @@ from engine.layout import (
     KIND_NODE,
     KIND_SOLID_LEAF,
     NODE_FLOATS,
-    NODE_INTS,
     NODE_NEGATIVE,
     NODE_POSITIVE,
     NODE_SPHERE,
+    POLYGON_ALIGNMENT,
     POLYGON_CORNERS,
     POLYGON_COUNT,
     POLYGON_ID,
+    SHAPE_NODE_INTS,
     VECTOR_SIZE,
 )
 
@@ -149,7 +150,7 @@ class Shape:
 
 def _flatten_polygons(points: Array, polygons: Sequence[Sequence[int]], name: str) -> tuple[Ints, Array]:
     """Lay polygon records behind each other, with their planes; return their offsets and the floats."""
-    sizes = [POLYGON_CORNERS + (CORNER_SIZE + EDGE_SIZE) * len(polygon) for polygon in polygons]
+    sizes = [_record_size(len(polygon)) for polygon in polygons]
     offsets = np.concatenate(([0], np.cumsum(sizes, dtype=np.int64)))
     floats = np.zeros(offsets[-1], dtype=np.float64)
     for index, polygon in enumerate(polygons):
@@ -168,6 +169,12 @@ def _flatten_polygons(points: Array, polygons: Sequence[Sequence[int]], name: st
     return offsets[:-1].astype(np.int64), floats
 
 
+def _record_size(num_vertices: int) -> int:
+    """Return the length of a polygon's record."""
+    size = POLYGON_CORNERS + (CORNER_SIZE + EDGE_SIZE) * num_vertices
+    return int(size + -size % POLYGON_ALIGNMENT)
+
+
 class _FlatTree:
     """A tree in traversal order: node, positive subtree, negative subtree.
 
@@ -184,7 +191,7 @@ class _FlatTree:
         self._collect(root)
         self._check_all_used()
         self.floats: Final = np.array(self._floats, dtype=np.float64).reshape(-1, NODE_FLOATS)
-        self.ints: Final = np.array(self._ints, dtype=np.int64).reshape(-1, NODE_INTS)
+        self.ints: Final = np.array(self._ints, dtype=np.int64).reshape(-1, SHAPE_NODE_INTS)
         self.polygons: Final = np.array(self._lists, dtype=np.int64)
 
     def _collect(self, root: Tree) -> None:

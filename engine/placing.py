@@ -12,7 +12,7 @@ from engine import layout as at
 from engine.batch import check_status
 from engine.body import Body, body_rows, rows_as_numbers
 from engine.errors import QueryError
-from engine.kernels.tick_placement import place_many
+from engine.kernels import program
 from engine.pose import pose_row
 from engine.tracing import runnable
 
@@ -97,7 +97,8 @@ def place(
         raise QueryError("cell", f"{cell:#010x} is not in the world")
     given["slide"], given["do_not_load_cells"] = slide, do_not_load_cells
     numbers = placements.view(np.float64).reshape(1, int(of_body.PLACEMENT_SIZE))
-    runnable(place_many)(world.floats, world.ints, world.new_row(), rows_as_numbers(rows), numbers)
+    bodies = rows_as_numbers(rows)
+    runnable(program.run)(world.floats, world.ints, world.new_row(), program.PLACE, bodies, numbers)
     check_status(rows["status"])
     x, y, z = (float(c) for c in given["pose"][at.POSE_ORIGIN :])
     return Placement(PlacementResult(int(given["result"])), rows[0], (x, y, z))

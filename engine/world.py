@@ -14,6 +14,7 @@ from engine.compiling.restrictions import write_restrictions
 from engine.compiling.storage import Storage
 from engine.compiling.terrain import DETAILS, SIDE
 from engine.errors import WorldError
+from engine.memory import aligned
 from engine.shadows import register
 
 if TYPE_CHECKING:
@@ -25,8 +26,6 @@ if TYPE_CHECKING:
     from engine.landscape import Building, LandBlock
     from engine.objects import Obstacle
 
-_CACHE_LINE: Final = 16
-"""Numbers in a cache line, which has 64 bytes on x86 and up to 128 elsewhere."""
 _MAX_OUTSIDE: Final = 9 * 10
 """Most land cells that are listed at once: nine about each of the ten balls of an object (09, 5.4)."""
 
@@ -137,7 +136,7 @@ class World:
 
         The lists behind the state are not cleared: each has a count, and nothing beyond it is read.
         """
-        row = _aligned(int(self.ints[at.WORLD_ROW]) + trace_capacity)
+        row: Array = aligned(int(self.ints[at.WORLD_ROW]) + trace_capacity, np.float64)
         row[: at.STATE_SIZE] = 0.0
         row[at.TRACE_CAPACITY] = trace_capacity
         return row
@@ -180,13 +179,6 @@ def _in_full_detail(blocks: Sequence[LandBlock]) -> list[LandBlock]:
             where = f"landblock {block.id:#06x}, side_cell_count"
             raise WorldError(where, f"{block.side_cell_count} is none of {DETAILS}")
     return [block for block in blocks if block.side_cell_count == SIDE]
-
-
-def _aligned(size: int) -> Array:
-    """Return numbers that share no cache line with anything else: other threads write what is beside them."""
-    numbers = np.empty(size + 2 * _CACHE_LINE, dtype=np.float64)
-    first = -(numbers.ctypes.data // numbers.itemsize) % _CACHE_LINE
-    return numbers[first : first + size]
 
 
 def _write_ids(storage: Storage, keys: Mapping[int, int]) -> dict[int, int]:

@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Final
 import numpy as np
 
 from engine import layout as at
+from engine.memory import aligned
 
 if TYPE_CHECKING:
     from collections.abc import Mapping, Sequence
@@ -70,8 +71,10 @@ class Storage:
 
     def finish(self, header: Mapping[int, int]) -> tuple[Array, Ints]:
         """Return the arrays, with the header written."""
-        floats = np.concatenate([*self._node_floats, *self._floats])
-        ints = np.concatenate([*self._node_ints, *self._ints])
+        floats: Array = aligned(self._num_floats, np.float64)
+        ints: Ints = aligned(self._num_ints, np.int64)
+        np.concatenate([*self._node_floats, *self._floats], out=floats)
+        np.concatenate([*self._node_ints, *self._ints], out=ints)
         for place, value in header.items():
             ints[place] = value
         return floats, ints
@@ -80,18 +83,30 @@ class Storage:
         """Append a shape; its tree gets node numbers from `first` on."""
         polygons = shape.polygon_floats.copy()
         polygons[shape.polygon_offsets + at.POLYGON_SHAPE] = index
+        self.add_floats(np.zeros(-self._num_floats % int(at.POLYGON_ALIGNMENT)))
         base = self.add_floats(polygons)
         self.polygons.append(base)
         leaf_lists = self.add_ints(base + shape.polygon_offsets[shape.leaf_polygons])
-        nodes = shape.node_ints.copy()
-        interior = nodes[:, at.NODE_KIND] == at.KIND_NODE
-        nodes[interior, at.NODE_POSITIVE] += first
-        nodes[interior, at.NODE_NEGATIVE] += first
-        nodes[~interior, at.LEAF_FIRST] += leaf_lists
         self._node_floats.append(shape.node_floats.ravel())
-        self._node_ints.append(nodes.ravel())
+        self._node_ints.append(_packed(shape.node_ints, first, leaf_lists))
         self._roots[id(shape)] = first
         if shape.cell_planes is None:
             self._planes[id(shape)] = (0, int(at.NO_PLANES))
         else:
             self._planes[id(shape)] = (self.add_floats(shape.cell_planes.ravel()), len(shape.cell_planes))
+
+
+def _packed(nodes: Ints, first: int, lists: int) -> Ints:
+    """Return a world's integers for the nodes of a shape.
+
+    first : number of the shape's root; lists : where the shape's lists of polygons begin.
+    """
+    kind = nodes[:, at.NODE_KIND]
+    solid = np.where(kind == at.KIND_SOLID_LEAF, at.SOLID_BIT, 0)
+    leaf = at.LEAF_BIT | solid | nodes[:, at.LEAF_COUNT] << at.LEAF_COUNT_SHIFT
+    packed = np.empty((len(nodes), int(at.NODE_INTS)), dtype=np.int64)
+    packed[:, at.NODE_NEXT] = np.where(
+        kind == at.KIND_NODE, nodes[:, at.NODE_NEGATIVE] + first, nodes[:, at.LEAF_FIRST] + lists
+    )
+    packed[:, at.NODE_LEAF] = np.where(kind == at.KIND_NODE, 0, leaf)
+    return packed.ravel()

@@ -13,15 +13,13 @@ from engine.kernels.compile import inlined
 from engine.kernels.indexing import unsigned
 from engine.kernels.polygon import plane_distance
 from engine.layout import (
-    KIND_NODE,
-    KIND_SOLID_LEAF,
-    LEAF_COUNT,
-    LEAF_FIRST,
+    LEAF_COUNT_SHIFT,
     NODE_FLOATS,
     NODE_INTS,
-    NODE_KIND,
-    NODE_NEGATIVE,
+    NODE_LEAF,
+    NODE_NEXT,
     NODE_SPHERE,
+    SOLID_BIT,
 )
 
 if TYPE_CHECKING:
@@ -80,13 +78,13 @@ def side_of(dist: float, reach: float) -> int:
 @inlined
 def is_leaf(wi: Ints, node: int) -> bool:
     """Say whether a tree ends here."""
-    return wi[unsigned(NODE_INTS * node + NODE_KIND)] != KIND_NODE
+    return wi[unsigned(NODE_INTS * node + NODE_LEAF)] != 0
 
 
 @inlined
 def is_solid(wi: Ints, leaf: int) -> bool:
     """Say whether a leaf is flagged as solid."""
-    return wi[unsigned(NODE_INTS * leaf + NODE_KIND)] == KIND_SOLID_LEAF
+    return wi[unsigned(NODE_INTS * leaf + NODE_LEAF)] & SOLID_BIT != 0
 
 
 @inlined
@@ -98,14 +96,14 @@ def positive(node: int) -> int:
 @inlined
 def negative(wi: Ints, node: int) -> int:
     """Return the child behind the splitting plane."""
-    return wi[unsigned(NODE_INTS * node + NODE_NEGATIVE)]
+    return wi[unsigned(NODE_INTS * node + NODE_NEXT)]
 
 
 @inlined
 def leaf_polygons(wi: Ints, leaf: int) -> tuple[int, int]:
     """Return where a leaf's list of polygons begins, and its length."""
     at = unsigned(NODE_INTS * leaf)
-    return wi[at + LEAF_FIRST], wi[at + LEAF_COUNT]
+    return wi[at + NODE_NEXT], wi[at + NODE_LEAF] >> LEAF_COUNT_SHIFT
 
 
 @inlined

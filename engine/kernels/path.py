@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING
 
 from engine.constants import FIRST_INDOOR, PLACEMENT_INSERT, TRANSITION_INSERT
 from engine.kernels.compile import entry, inlined, kernel
-from engine.kernels.position import block_offset, position_localtolocal
+from engine.kernels.position import block_offset, localtolocal_across
 from engine.kernels.rounding import f32
 from engine.kernels.vector import copy_position, copy_vector, load, store
 from engine.layout import (
@@ -143,13 +143,17 @@ def add_offset_to_check_pos(s: Array, x: float, y: float, z: float) -> None:
 
 
 @inlined
-def _localspace_point(a: Array, p: int, s: Array, pos: int, sphere: int, inv: float) -> Vector:
+def _to_localspace(
+    a: Array, p: int, bx: float, by: float, inv: float, s: Array, pos: int, sphere: int
+) -> Vector:
     """Take a sphere's centre at a position into the space of p, divided by its scale.
+
+    bx, by: how far apart the blocks of both positions are.
 
     retail: LS-2
     """
     x, y, z = load(s, sphere)
-    vx, vy, vz = position_localtolocal(a, p, s, pos, x, y, z)
+    vx, vy, vz = localtolocal_across(a, p, bx, by, s, pos, x, y, z)
     return f32(inv * vx), f32(inv * vy), f32(inv * vz)
 
 
@@ -162,13 +166,15 @@ def cache_localspace_sphere(s: Array, a: Array, p: int, scale: float) -> None:
     retail: SPHEREPATH::cache_localspace_sphere 0x0050C9D0, LS-1...LS-5
     """
     inv = f32(1.0 / scale)
+    bx, by = block_offset(a[p], s[CHECK_POS])
+    cx, cy = block_offset(a[p], s[CURR_POS])
     for i in range(int(s[NUM_SPHERE])):
         local = LOCAL_SPHERE + SPHERE_SIZE * i
         at = LOCALSPACE_SPHERE + SPHERE_SIZE * i
         s[at + RADIUS] = f32(inv * s[local + RADIUS])
-        x, y, z = _localspace_point(a, p, s, CHECK_POS, local, inv)
+        x, y, z = _to_localspace(a, p, bx, by, inv, s, CHECK_POS, local)
         store(s, at, x, y, z)
-        x, y, z = _localspace_point(a, p, s, CURR_POS, local, inv)
+        x, y, z = _to_localspace(a, p, cx, cy, inv, s, CURR_POS, local)
         store(s, LOCALSPACE_CURR_CENTER + 3 * i, x, y, z)
     copy_position(s, LOCALSPACE_POS, a, p)
     m = LOCALSPACE_POS + MATRIX

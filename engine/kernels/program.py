@@ -15,6 +15,7 @@ from engine.kernels.object_calls import meet
 from engine.kernels.resolving import resolve
 from engine.kernels.tick import step
 from engine.kernels.tick_gates import update
+from engine.kernels.tick_placement import place
 
 if TYPE_CHECKING:
     from engine.kernels.types import Array, Ints
@@ -31,12 +32,15 @@ UPDATE: Final = frozen(4)
 """Each row is a body: `engine.kernels.tick_gates.update`. ``out[0, 0]``: up to when; ``out[1]`` and
 ``out[2]``: room for the lengths and the ends of the ticks of one body."""
 
+PLACE: Final = frozen(5)
+"""Each row is a body, and each of ``out`` its placement: `engine.kernels.tick_placement.place`."""
+
 
 @entry
 def run(wf: Array, wi: Ints, s: Array, job: int, rows: Array, out: Array) -> None:
     """Do a job for many rows, one after the other, in one row of state.
 
-    `out` gets a row of results for each query; what it is for bodies, `STEP` and `UPDATE` say.
+    `out` gets a row of results for each query; what it is for bodies, `STEP`, `UPDATE` and `PLACE` say.
     """
     for i in range(len(rows)):
         if job == RESOLVE:
@@ -47,5 +51,7 @@ def run(wf: Array, wi: Ints, s: Array, job: int, rows: Array, out: Array) -> Non
             meet(wf, wi, s, rows[i], out[i])
         elif job == STEP:
             step(wf, wi, s, rows[i], out[0, 0], out[0, 1])
+        elif job == PLACE:
+            place(wf, wi, s, rows[i], out[i])
         else:
             update(wf, wi, s, rows[i], out[0, 0], out[1], out[2])

@@ -17,14 +17,14 @@ from engine.body_layout import (
 )
 from engine.constants import PLACEMENT_SLACK
 from engine.kernels.cell_array import cell_id
-from engine.kernels.compile import entry, inlined, kernel
+from engine.kernels.compile import inlined, kernel
 from engine.kernels.query import load_pose
 from engine.kernels.tick_collisions import respond, track_touched_objects
 from engine.kernels.tick_position import become_lost, set_position_internal
 from engine.kernels.tick_seed import seed_placement
 from engine.kernels.tick_velocity import set_velocity
 from engine.kernels.transition import find_valid_position
-from engine.kernels.vector import copy
+from engine.kernels.vector import copy_vector
 from engine.layout import (
     CURR_CELL,
     CURR_POS,
@@ -34,20 +34,17 @@ from engine.layout import (
     POSE_ORIGIN,
     STATUS,
     STATUS_OK,
-    VECTOR_SIZE,
 )
 
 if TYPE_CHECKING:
     from engine.kernels.types import Array, Ints
 
 
-@entry
-def place_many(wf: Array, wi: Ints, s: Array, bodies: Array, placements: Array) -> None:
-    """Put bodies down, each as if it were alone. `s` is a row for their transitions."""
-    for i in range(len(bodies)):
-        b, p = bodies[i], placements[i]
-        b[B_STATUS] = STATUS_OK
-        p[P_RESULT] = _place(wf, wi, s, b, p)
+@kernel
+def place(wf: Array, wi: Ints, s: Array, b: Array, p: Array) -> None:
+    """Put a body down as a placement says, which takes the result. `s` is a row for its transition."""
+    b[B_STATUS] = STATUS_OK
+    p[P_RESULT] = _place(wf, wi, s, b, p)
 
 
 @kernel
@@ -93,5 +90,5 @@ def _is_near(wf: Array, wi: Ints, s: Array, p: Array) -> bool:
         return False
     if s[CURR_POS] != cell_id(wf, wi, int(p[P_CELL])):
         return False
-    copy(p, P_POSE + POSE_ORIGIN, s, o, VECTOR_SIZE)
+    copy_vector(p, P_POSE + POSE_ORIGIN, s, o)
     return True

@@ -12,10 +12,21 @@ from engine.layout.rows import POSITION_SIZE, Row
 # floats: node k at NODE_FLOATS * k (splitting plane, bounding sphere), then polygon, plane, cell, part,
 # object and shape records. ints: the header below in the place of the first nodes, node k at
 # NODE_INTS * k, then records and lists. A leaf keeps no plane; a polygon is named by the offset of its
-# record.
+# record. A node's floats are a cache line, and the integers of a node and its positive child, which is the
+# next, are in one, too.
 NODE_FLOATS: Final = frozen(8)
 NODE_SPHERE: Final = frozen(4)
-NODE_INTS: Final = frozen(4)
+NODE_INTS: Final = frozen(2)
+NODE_NEXT: Final = frozen(0)
+"""The negative child; of a leaf, where the list of its polygons begins."""
+NODE_LEAF: Final = frozen(1)
+"""0 for a node that splits; else the two bits below, and the number of polygons above them."""
+LEAF_BIT: Final = frozen(1)
+SOLID_BIT: Final = frozen(2)
+LEAF_COUNT_SHIFT: Final = frozen(2)
+
+# --- the nodes of a shape, before they are part of a world -------------------------------------------
+SHAPE_NODE_INTS: Final = frozen(4)
 NODE_KIND: Final = frozen(0)
 NODE_POSITIVE: Final = frozen(1)
 NODE_NEGATIVE: Final = frozen(2)
@@ -27,11 +38,15 @@ KIND_SOLID_LEAF: Final = frozen(2)
 NOT_SOLID: Final = frozen(0)
 NO_TREE: Final = frozen(0)
 
+# --- the world's records ----------------------------------------------------------------------------
 POLYGON_COUNT: Final = frozen(4)
 POLYGON_ID: Final = frozen(5)
 POLYGON_SHAPE: Final = frozen(6)
 POLYGON_CORNERS: Final = frozen(8)
-"""A polygon record: plane, number of vertices, its id, its shape's index, pad, corners, edges."""
+"""A polygon record: plane, number of vertices, its id, its shape's index, pad, corners, edges; padded to
+`POLYGON_ALIGNMENT`."""
+POLYGON_ALIGNMENT: Final = frozen(8)
+"""Numbers in a cache line: the plane, by which most polygons are ruled out, is in one."""
 CORNER_SIZE: Final = frozen(6)
 """A vertex x y z, and the in-plane normal of the edge from it to the next one, as PP-2 rounds it."""
 CORNER_NORMAL: Final = frozen(3)

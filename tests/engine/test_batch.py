@@ -88,6 +88,16 @@ def test_a_batch_of_moves_equals_the_single_ones() -> None:
     assert np.array_equal(resolve_many(world, move_rows(world, moves())), many)
 
 
+def test_rows_may_be_read_only_or_apart() -> None:
+    """They are copied then."""
+    world = seed_world()
+    rows = move_rows(world, moves())
+    many = resolve_many(world, rows)
+    apart = np.repeat(rows, 2)[::2]
+    apart.flags.writeable = False
+    assert np.array_equal(resolve_many(world, apart), many)
+
+
 def test_a_wall_stops_a_walker_and_it_slides() -> None:
     """The blocked part of the movement is lost, the rest kept, the ground stays."""
     result = resolve(world_of(floor_and_wall()), moves()[0])

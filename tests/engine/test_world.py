@@ -22,6 +22,7 @@ from engine import (
 )
 from engine import layout as at
 from engine.kernels.cell_ids import find_cell
+from engine.memory import CACHE_LINE
 
 OTHER = CELL + 1
 
@@ -47,13 +48,24 @@ def test_polygons_and_trees_are_relocated() -> None:
     world = World([Cell(CELL, Pose(CELL), first), Cell(OTHER, Pose(CELL), second)])
     root = world.tree_of(1)
     assert root == at.FIRST_NODE + 1
-    positive = world.ints[at.NODE_INTS * root + at.NODE_POSITIVE]
-    assert positive == root + 1
-    start, count = world.ints[at.NODE_INTS * positive + at.LEAF_FIRST :][:2]
-    listed = world.ints[start : start + count].tolist()
+    nodes = world.ints[at.NODE_INTS * root : at.NODE_INTS * (root + 2)].reshape(2, at.NODE_INTS)
+    negative, (start, leaf) = nodes[0, at.NODE_NEXT], nodes[1].tolist()
+    assert nodes[0, at.NODE_LEAF] == 0
+    assert negative == root + 2
+    assert leaf & at.LEAF_BIT
+    assert not leaf & at.SOLID_BIT
+    listed = world.ints[start : start + (leaf >> at.LEAF_COUNT_SHIFT)].tolist()
     assert listed == [world.polygon(1, 0), world.polygon(1, 1)]
     assert world.floats[listed[1] + at.POLYGON_ID] == 1
     assert world.floats[listed[1] + at.POLYGON_SHAPE] == 1
+
+
+def test_records_that_are_walked_begin_with_a_cache_line() -> None:
+    """Nodes, and polygons of whatever size, wherever the allocator puts the world."""
+    world = World([Cell(CELL, Pose(CELL), triangle()), Cell(OTHER, Pose(CELL), floor_and_wall())])
+    assert world.floats.ctypes.data % CACHE_LINE == world.ints.ctypes.data % CACHE_LINE == 0
+    for shape, polygon in ((0, 0), (1, 0), (1, 1)):
+        assert world.polygon(shape, polygon) % at.POLYGON_ALIGNMENT == 0
 
 
 def test_a_cell_without_geometry_has_no_tree() -> None:

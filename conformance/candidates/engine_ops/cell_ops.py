@@ -16,7 +16,7 @@ from conformance.candidates.engine_ops.worlds import engine_world
 from engine import layout as at
 from engine.constants import STATE_NAMES
 from engine.kernels import cell_list, outside, transit
-from engine.kernels.object_calls import meet
+from engine.kernels.program import MEET
 from engine.object_call import Target
 from engine.registration import Registrar
 from engine.visible import find_visible_child_cell
@@ -156,7 +156,7 @@ def _check_entry_restrictions(query: Query) -> Fields:
     world, where = engine_world(inputs["world"], query.geometries), inputs["position"]
     row = query_row({"mover": inputs["mover"], "from": where, "to": where}, index_of(world, inputs))
     row["target_kind"] = Target.ENTRY
-    result, _ = run(meet, world, row)
+    result, _ = run(MEET, world, row)
     return {
         "result": STATE_NAMES[int(result["result"])],
         "collision_normal": normal_or_null(result, "collision_normal"),

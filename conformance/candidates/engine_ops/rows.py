@@ -54,8 +54,8 @@ def take_path(row: Any, path: Mapping[str, Any]) -> None:
 
 
 def numbers_of(row: Any) -> Array:
-    """Return a query row as consecutive numbers, which is how kernels read it."""
-    return np.frombuffer(row.tobytes(), dtype=np.float64)
+    """Return a query row as consecutive numbers, which is how kernels read it; they may be written."""
+    return np.frombuffer(bytearray(row.tobytes()), dtype=np.float64)
 
 
 def _pose(pose: Mapping[str, Any]) -> Sequence[float]:
