@@ -52,7 +52,8 @@ def pose_row(pose: Pose, where: str) -> Array:
     origin = float32_array(pose.origin, (3,), f"{where}, origin", PoseError)
     quaternion = float32_array(pose.rotation, (4,), f"{where}, rotation", PoseError)
     w, x, y, z = (float(c) for c in quaternion)
-    length = float(np.float32(((z * z + y * y) + x * x) + w * w))
+    with np.errstate(over="ignore"):
+        length = float(np.float32(((z * z + y * y) + x * x) + w * w))
     if abs(length - 1.0) > EPS5:
         raise PoseError(f"{where}, rotation", f"squared length {length} is not 1 within {EPS5:.4g}")
     return np.concatenate(([float(pose.cell)], quaternion, origin))
@@ -101,6 +102,7 @@ def _stored(vectors: Sequence[Sequence[float]], size: int) -> Array:
 def _all_valid(rows: Array) -> bool:
     """Say whether `pose_row` would accept all of these."""
     w, x, y, z = rows[:, at.QUATERNION : at.QUATERNION + at.QUATERNION_SIZE].T
-    length = (((z * z + y * y) + x * x) + w * w).astype(np.float32).astype(np.float64)
+    with np.errstate(over="ignore"):
+        length = (((z * z + y * y) + x * x) + w * w).astype(np.float32).astype(np.float64)
     ids = (rows[:, 0] >= 0) & (rows[:, 0] <= 0xFFFF_FFFF)
     return bool(ids.all() and np.isfinite(rows).all() and (np.abs(length - 1.0) <= EPS5).all())

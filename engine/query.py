@@ -9,6 +9,7 @@ import numpy as np
 import numpy.typing as npt
 
 from engine import layout as at
+from engine.effort import check_way
 from engine.errors import QueryError
 from engine.float32 import float32_array
 from engine.pose import pose_row
@@ -173,7 +174,10 @@ def move_rows(world: World, moves: Sequence[Move]) -> Rows:
     """Return a row for each move; raises `QueryError` or `PoseError` naming the move."""
     rows = np.zeros(len(moves), dtype=at.QUERY_DTYPE)
     for index, move in enumerate(moves):
-        fill_move(rows[index], world, move, f"move {index}")
+        row = rows[index]
+        fill_move(row, world, move, f"move {index}")
+        start = None if move.start is None else row["start"]
+        check_way(start, row["end"], float(row["spheres"][0, at.RADIUS] * row["scale"]), f"move {index}")
     return rows
 
 

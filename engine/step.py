@@ -10,7 +10,8 @@ import numpy as np
 from engine.batch import check_status
 from engine.body import Body, body_rows, rows_as_numbers
 from engine.body_layout import BODY_DTYPE
-from engine.constants import CHECK_ETHEREAL_TS, MAX_ELASTICITY
+from engine.constants import CHECK_ETHEREAL_TS, MAX_ELASTICITY, MAX_QUANTUM
+from engine.effort import check_tick
 from engine.errors import QueryError
 from engine.float32 import float32_array
 from engine.kernels import program, tick_velocity
@@ -76,6 +77,7 @@ def step_many(world: World, rows: Rows, dt: float, ticks: int, *, threads: int =
     if not quantum > 0.0:
         raise QueryError("dt", f"{dt} seconds is not greater than 0")
     numbers = _ready(rows)
+    check_tick(rows, quantum)
     run, times = runnable(program.run), np.array([[quantum, float(ticks)]])
 
     def work(part: slice) -> None:
@@ -108,6 +110,7 @@ def update_many(world: World, rows: Rows, now: float, *, threads: int = 1) -> Ro
     if not math.isfinite(now):
         raise QueryError("now", f"{now} is not a time")
     numbers = _ready(rows)
+    check_tick(rows, MAX_QUANTUM)
     run = runnable(program.run)
 
     def work(part: slice) -> None:

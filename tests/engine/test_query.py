@@ -79,6 +79,7 @@ WRONG: list[tuple[dict[str, Any], str]] = [
         "move 0, seed, contact_plane: shape (3,) where (4,) is needed",
     ),
     ({"end": Pose(CELL, (0, 0, np.nan))}, "move 0, end, origin: nan at (2,) is not a finite float32"),
+    ({"start": Pose(CELL, rotation=(1e30, 0, 0, 0))}, "move 0, start, rotation: squared length inf"),
     ({"start": Pose(CELL, rotation=(0, 0, 0, 2))}, "move 0, start, rotation: squared length 4.0"),
 ]
 
