@@ -26,11 +26,11 @@ def test_the_longest_move_has_just_so_many_steps() -> None:
     end[5] = longest
     check_way(start, end, RADIUS, "move")
     end[5] = np.nextafter(longest, np.inf)
-    with pytest.raises(QueryError, match="move: .* more than 200000 steps"):
+    with pytest.raises(QueryError, match=r"move: .* more than 200000 steps"):
         check_way(start, end, RADIUS, "move")
     end[:] = 0.0
     end[0] = float(0x0200_0000)
-    with pytest.raises(QueryError, match="move: 384 m with a sphere of radius 0.000976562 m"):
+    with pytest.raises(QueryError, match=r"move: 384 m with a sphere of radius 0\.000976562 m"):
         check_way(start, end, RADIUS, "move")
 
 
