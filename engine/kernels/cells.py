@@ -17,7 +17,7 @@ from engine.kernels.cell_list import UNTOUCHED, find_cell_list
 from engine.kernels.compile import inlined, kernel
 from engine.kernels.land_cells import find_terrain_collisions
 from engine.kernels.objects import test_part
-from engine.kernels.path import cache_localspace_sphere
+from engine.kernels.path import enter_localspace
 from engine.kernels.trace import BUILDING_CALL, trace_close, trace_open
 from engine.layout import (
     BLDG_CHECK,
@@ -89,7 +89,7 @@ def _test_environment(wf: Array, wi: Ints, s: Array, cell: int) -> int:
     root = wi[ints_of(wi, cell) + CELL_TREE]
     if root == NO_TREE:
         return OK
-    cache_localspace_sphere(s, wf, position_of(wi, cell), 1.0)
+    enter_localspace(s, wf, position_of(wi, cell), 1.0)
     if s[INSERT_TYPE] == INITIAL_PLACEMENT_INSERT:
         return placement_insert(wf, wi, s, root)
     return find_collisions(wf, wi, s, root, 1.0)

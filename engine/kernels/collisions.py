@@ -10,7 +10,7 @@ from engine.kernels.bsp_placement import placement_insert
 from engine.kernels.bsp_tree import dispatch, find_collisions
 from engine.kernels.cell_array import ints_of, position_of
 from engine.kernels.compile import kernel
-from engine.kernels.path import cache_localspace_sphere, set_check_pos
+from engine.kernels.path import enter_localspace, set_check_pos
 from engine.kernels.query import prepare, report, set_path_fields
 from engine.kernels.stepping import step_up_or_slide
 from engine.kernels.trace import INITIAL_PLACEMENT_CALL, trace_close
@@ -42,7 +42,7 @@ def collide(wf: Array, wi: Ints, s: Array, q: Array, out: Array) -> None:
     set_path_fields(s, q)
     floats, root, is_part = _target(wi, q)
     scale = wf[floats + at.PART_SCALE] if is_part else 1.0
-    cache_localspace_sphere(s, wf, floats, scale)
+    enter_localspace(s, wf, floats, scale)
     if s[at.INSERT_TYPE] == INITIAL_PLACEMENT_INSERT:
         path = INITIAL_PLACEMENT_CALL
         ts = placement_insert(wf, wi, s, root)

@@ -37,7 +37,7 @@ from engine.kernels.bsp_tree import find_collisions
 from engine.kernels.collision_info import add_object
 from engine.kernels.compile import inlined, kernel
 from engine.kernels.cylsphere import test_cylsphere
-from engine.kernels.path import cache_localspace_sphere
+from engine.kernels.path import enter_localspace
 from engine.kernels.sphere_obstacle import test_sphere
 from engine.kernels.vector import load
 from engine.layout import (
@@ -223,7 +223,7 @@ def test_part(wf: Array, wi: Ints, s: Array, part: int) -> int:
     position = wi[WORLD_PART_FLOATS] + PART_FLOATS * part
     root = wi[wi[WORLD_PART_INTS] + PART_INTS * part + PART_TREE]
     scale = wf[position + PART_SCALE]
-    cache_localspace_sphere(s, wf, position, scale)
+    enter_localspace(s, wf, position, scale)
     if not _any_sphere_near(wf, s, root):
         return OK
     if s[INSERT_TYPE] == INITIAL_PLACEMENT_INSERT:

@@ -30,6 +30,7 @@ from engine.layout import (
     LOCAL_SPHERE,
     LOCALSPACE_CURR_CENTER,
     LOCALSPACE_LOW_POINT,
+    LOCALSPACE_OF,
     LOCALSPACE_POS,
     LOCALSPACE_SPHERE,
     LOCALSPACE_Z,
@@ -63,6 +64,7 @@ def init_path(s: Array) -> None:
     placed = s[HAS_BEGIN_POS] == 0.0
     copy_position(s, CURR_POS, s, END_POS if placed else BEGIN_POS)
     s[CURR_CELL] = s[BEGIN_CELL]
+    s[LOCALSPACE_OF] = 0.0
     cache_global_curr_center(s)
     s[INSERT_TYPE] = PLACEMENT_INSERT if placed else TRANSITION_INSERT
 
@@ -182,10 +184,43 @@ def cache_localspace_sphere(s: Array, a: Array, p: int, scale: float) -> None:
     uy = f32((s[m + 4] + s[m + 3]) * 0.0 + s[m + 5])
     uz = f32((s[m + 7] + s[m + 6]) * 0.0 + s[m + 8])
     store(s, LOCALSPACE_Z, ux, uy, uz)
+    _cache_localspace_low_point(s)
+    s[LOCALSPACE_OF] = 0.0
+
+
+@inlined
+def _cache_localspace_low_point(s: Array) -> None:
+    """Find the lowest point of sphere 0.
+
+    retail: LS-5
+    """
+    ux, uy, uz = load(s, LOCALSPACE_Z)
     r = s[LOCALSPACE_SPHERE + RADIUS]
     by, bz = f32(r * uy), f32(r * uz)
     x, y, z = load(s, LOCALSPACE_SPHERE)
     store(s, LOCALSPACE_LOW_POINT, f32(x - r * ux), f32(y - by), f32(z - bz))
+
+
+@kernel
+def enter_localspace(s: Array, wf: Array, p: int, scale: float) -> None:
+    """Put the spheres into the space of a cell or a part, whose position lies at ``wf[p]``.
+
+    A step tests the same cell several times. Unless the mover has moved on in between, or something else
+    has been tested, only what depends on the check position has changed since.
+
+    retail: SPHEREPATH::cache_localspace_sphere 0x0050C9D0, LS-1...LS-5
+    """
+    if s[LOCALSPACE_OF] != p:
+        cache_localspace_sphere(s, wf, p, scale)
+        s[LOCALSPACE_OF] = p
+        return
+    inv = f32(1.0 / scale)
+    bx, by = block_offset(wf[p], s[CHECK_POS])
+    for i in range(int(s[NUM_SPHERE])):
+        local = LOCAL_SPHERE + SPHERE_SIZE * i
+        x, y, z = _to_localspace(wf, p, bx, by, inv, s, CHECK_POS, local)
+        store(s, LOCALSPACE_SPHERE + SPHERE_SIZE * i, x, y, z)
+    _cache_localspace_low_point(s)
 
 
 @entry

@@ -39,6 +39,7 @@ from engine.layout import (
     GLOBAL_OFFSET,
     INSERT_TYPE,
     LOCAL_SPHERE,
+    LOCALSPACE_OF,
     NO_CELL,
     OI_STATE,
     QUATERNION,
@@ -108,6 +109,7 @@ def _take_end_rotation(s: Array) -> None:
     """
     q = END_POS + QUATERNION
     frame_set_rotate(s, CURR_POS, s[q], s[q + 1], s[q + 2], s[q + 3])
+    s[LOCALSPACE_OF] = 0.0
 
 
 @kernel

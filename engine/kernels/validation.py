@@ -51,6 +51,7 @@ from engine.layout import (
     LAST_KNOWN_IS_WATER,
     LAST_KNOWN_PLANE,
     LAST_KNOWN_VALID,
+    LOCALSPACE_OF,
     MOVER_GRAVITY,
     NO_CELL,
     OI_STATE,
@@ -97,6 +98,7 @@ def accept_check_pos(s: Array) -> None:
     """
     copy_position(s, CURR_POS, s, CHECK_POS)
     s[CURR_CELL] = s[CHECK_CELL]
+    s[LOCALSPACE_OF] = 0.0
     cache_global_curr_center(s)
 
 

@@ -120,6 +120,9 @@ REQUESTED_NORMAL: Final = _row.field("requested_normal", 3)
 """World normal that goes with the answer NEEDS_STEP_UP."""
 CONTACT_POINT: Final = _row.field("contact_point", 3)
 """Last projection of a sphere on a polygon's plane; retail's out argument contact_pt."""
+LOCALSPACE_OF: Final = _row.field("localspace_of")
+"""Where in the world's floats the position lies in whose space the row's `localspace` fields are, with the
+current position as it is; 0 for none."""
 SAVED_POS: Final = _row.field("saved_pos", POSITION_SIZE)
 """The local in which CTransition::check_walkable keeps the check position (WK-3)."""
 SCRATCH_FRAME: Final = _row.field("scratch_frame", POSITION_SIZE)

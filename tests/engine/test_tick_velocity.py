@@ -6,7 +6,7 @@ import math
 
 import pytest
 from engine_bodies import ACTIVE, GRAVITY, GROUNDED, f32, grounded, row_of, walker
-from hypothesis import given
+from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from engine.body_layout import B_WANTED
@@ -58,6 +58,7 @@ def test_an_unsteered_body_that_stands_goes_to_sleep() -> None:
         assert record["transient_state"] == after
 
 
+@settings(deadline=None)
 @given(x=speeds, y=speeds, q=quanta, friction=st.floats(0.0, 1.0, width=32))
 def test_friction_is_the_mathematical_power(x: float, y: float, q: float, friction: float) -> None:
     """The compiled power has the bits of the C library's, which is what the oracle uses."""
@@ -135,6 +136,7 @@ def test_a_local_velocity_is_turned_with_the_body() -> None:
     assert record["velocity"].tolist() == [-3.0, -4.0, 5.0]
 
 
+@settings(deadline=None)
 @given(angle=st.floats(0.015625, 3.0, width=32))
 def test_a_turn_about_the_vertical(angle: float) -> None:
     """Sine and cosine have the bits of the C library's; the result is of unit length once more."""
