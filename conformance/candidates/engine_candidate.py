@@ -54,7 +54,7 @@ class EngineCandidate(TableCandidate):
 
     name = "engine"
     operations = OPS
-    missing = "not in the engine yet"
+    missing = "the engine does not offer it"
     unable = (UndeterminedError, NotAskableError)
 
     def recording(self, topics: Collection[str]) -> AbstractContextManager[WriteTrace]:

@@ -13,6 +13,7 @@ from conformance.candidates.engine_ops.world_cache import engine_shape, sole_wor
 from conformance.candidates.oracle_candidate import OracleCandidate
 from conformance.compare import differences
 from conformance.query import Errored, Query, Result, Skipped
+from conformance.vector_io import query_from_record
 
 if TYPE_CHECKING:
     from conformance.query import Fields
@@ -37,7 +38,50 @@ def test_engine_and_oracle_agree_on_the_signs_of_zero(file: str) -> None:
 def test_what_the_engine_does_not_do_is_skipped() -> None:
     """The reason names the operation."""
     outcome = EngineCandidate().answer(Query(op="find_treasure", inputs={}))
-    assert outcome == Skipped("not in the engine yet: operation find_treasure")
+    assert outcome == Skipped("the engine does not offer it: operation find_treasure")
+
+
+def test_what_nobody_knows_is_skipped_by_both_sides() -> None:
+    """07 4.6: sphere 0 is 2 metres beside a ball that sphere 1 overlaps, and steps down: root of 2.25 - 4."""
+    cell = 0xA9B40100
+    ball = {
+        "id": 1,
+        "pose": pose(cell, 0.0, 0.0),
+        "scale": 1.0,
+        "state": 0,
+        "spheres": [[0.0, 0.0, 0.0, 1.0]],
+    }
+    mover = {
+        "spheres": [[0.0, 0.0, 0.0, 0.5], [-2.0, 0.0, 0.0, 0.5]],
+        "scale": 1.0,
+        "state": 3,
+        "step_up_height": 0.5,
+        "step_down_height": 1.5,
+        "ethereal": 0,
+        "step_down": 1,
+        "gravity": 1,
+    }
+    record = {
+        "op": "object_call",
+        "function": "object",
+        "cell": {"id": cell, "pose": pose(cell, 0.0, 0.0), "geometry": None},
+        "objects": [ball],
+        "mover": mover,
+        "from": pose(cell, 2.0, 3.0),
+        "to": pose(cell, 2.0, 1.0),
+        "seed": {},
+        "path": {"step_down": 1, "step_down_amt": 0.5, "walk_interp": 1.0, "walkable_allowance": 0.5},
+    }
+    query = query_from_record(record, {})
+    for candidate in (OracleCandidate(), EngineCandidate()):
+        outcome = candidate.answer(query)
+        assert isinstance(outcome, Skipped)
+        assert "retail's answer is not known: a step down onto a sphere" in outcome.reason
+
+
+def pose(cell: int, x: float, z: float) -> Fields:
+    """Return a POSE block, not turned."""
+    return {"cell": cell, "origin": [x, 0.0, z], "rotation": [1.0, 0.0, 0.0, 0.0]}
 
 
 def transition_record() -> VectorRecord:
