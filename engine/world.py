@@ -38,7 +38,7 @@ class World:
     cells : sequence of Cell
         Environment cells with different ids.
     landblocks : sequence of LandBlock
-        With different ids; together with `cells` at least one.
+        With different ids. Without cells and landblocks the world is empty, and nobody can be in it.
     buildings : sequence of Building
     shadows : mapping of int to sequences of Obstacle, optional
         The objects in a cell, environment or land, by its id; they follow those of `Cell.objects`. An
@@ -76,8 +76,6 @@ class World:
         objects: Sequence[Obstacle] = (),
         restrictions: Mapping[int, Restriction] | None = None,
     ) -> None:
-        if not cells and not landblocks:
-            raise WorldError("world", "has no cells")
         blocks = _in_full_detail(landblocks)
         numbers = CellNumbers(cells, blocks)
         found = register(World(cells, landblocks, buildings), objects) if objects else {}

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
-from hypothesis import given
+from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from engine import layout as at
@@ -66,6 +66,7 @@ def test_only_land_cells_have_land_coordinates(low: int) -> None:
     assert not gid_to_lcoord(HOLTBURG << 16 | low)[0]
 
 
+@settings(deadline=None)  # the first call compiles
 @given(st.integers(0, 2039), st.integers(0, 2039))
 def test_ids_and_land_coordinates_are_inverse(x: int, y: int) -> None:
     """Every cell of the land has one id."""

@@ -6,7 +6,7 @@ import struct
 
 import numpy as np
 import pytest
-from hypothesis import given
+from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from engine.kernels.rounding import f32
@@ -49,6 +49,7 @@ def test_nan_stays_nan() -> None:
     assert np.isnan(f32(np.nan))
 
 
+@settings(deadline=None)  # the first call compiles
 @given(st.floats(allow_nan=False))
 def test_equals_numpy(x: float) -> None:
     """The compiled conversion is NumPy's."""
@@ -56,6 +57,7 @@ def test_equals_numpy(x: float) -> None:
         assert bits(f32(x)) == bits(float(np.float32(x)))
 
 
+@settings(deadline=None)  # the first call compiles
 @given(st.floats(allow_nan=False, width=32))
 def test_a_float32_is_stored_exactly(x: float) -> None:
     """Storing what was loaded changes nothing."""

@@ -6,19 +6,22 @@ from typing import Any
 
 import numpy as np
 import pytest
-from engine_scenes import CELL, R, floor_and_wall, triangle
+from engine_scenes import CELL, R, floor_and_wall, mover, triangle
 
 from engine import (
     Building,
     Cell,
     LandBlock,
+    Move,
     Obstacle,
     Part,
     Portal,
     Pose,
     PoseError,
+    QueryError,
     World,
     WorldError,
+    resolve,
 )
 from engine import layout as at
 from engine.kernels.cell_ids import find_cell
@@ -99,10 +102,12 @@ def test_poses_keep_their_rotation_unnormalised() -> None:
 SHAPE = triangle()
 
 
-def test_a_world_has_a_cell() -> None:
-    """Nothing can be in a world without one."""
-    with pytest.raises(WorldError, match="world: has no cells"):
-        World([])
+def test_a_world_may_be_empty() -> None:
+    """As one whose blocks are all loaded with less detail: nobody can be in it."""
+    world = World([])
+    assert (world.cell_ids, world.num_objects) == ((), 0)
+    with pytest.raises(QueryError, match="move 0, begin cell: 0xa9b40111 is not in the world"):
+        resolve(world, Move(mover(), Pose(CELL), CELL))
 
 
 def test_cells_are_found_by_their_ids() -> None:
