@@ -1,11 +1,14 @@
 """Many queries on several threads: consecutive ones together, each part in a row of state of its own.
 
 Parts are taken in turn, not dealt out: queries differ in cost, and a thread may lose its core for a while.
+Helpers wait for the next batch when one is done: to start them takes as long as a small batch does.
 """
 
 from __future__ import annotations
 
-from concurrent.futures import ThreadPoolExecutor
+import os
+from concurrent.futures import ThreadPoolExecutor, wait
+from functools import cache
 from threading import Lock
 from typing import TYPE_CHECKING, Final
 
@@ -29,7 +32,8 @@ def in_parts(work: Callable[[slice], None], count: int, threads: int) -> None:
     count : int
         How many pieces there are.
     threads : int
-        How many share them, the calling one among them. While writes are recorded there is no other.
+        How many share them, the calling one among them; helpers that are busy with another caller's
+        pieces leave theirs to the others. While writes are recorded there is no helper.
 
     Raises
     ------
@@ -53,11 +57,20 @@ def in_parts(work: Callable[[slice], None], count: int, threads: int) -> None:
                 return
             work(part)
 
-    with ThreadPoolExecutor(sharing - 1) as others:
-        helping = [others.submit(share) for _ in range(sharing - 1)]
+    helping = [_helpers(os.getpid()).submit(share) for _ in range(sharing - 1)]
+    try:
         share()
-        for helper in helping:
-            helper.result()
+    finally:
+        begun = [helper for helper in helping if not helper.cancel()]
+        wait(begun)
+    for helper in begun:
+        helper.result()
+
+
+@cache
+def _helpers(_process: int) -> ThreadPoolExecutor:
+    """Return the helpers of a process: one that was forked has none of its parent's."""
+    return ThreadPoolExecutor(os.cpu_count(), thread_name_prefix="engine")
 
 
 def _parts(count: int, number: int) -> Iterator[slice]:

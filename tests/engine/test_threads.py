@@ -2,6 +2,11 @@
 
 from __future__ import annotations
 
+import os
+from concurrent.futures import ThreadPoolExecutor
+from threading import Barrier
+from threading import enumerate as enumerate_threads
+
 import numpy as np
 import pytest
 from engine_scenes import CELL, R, at, floor_and_wall, mover, world_of
@@ -81,6 +86,36 @@ def test_an_error_in_a_thread_is_raised() -> None:
 
     with pytest.raises(ArithmeticError, match=r"[01]"):
         in_parts(fail, 4, 2)
+
+
+def test_several_callers_at_a_time() -> None:
+    """They share the helpers, and nobody's pieces are left out, done twice, or done after the return."""
+    size, callers = 500, 8
+
+    def call(_: int) -> bool:
+        done = np.zeros(size, dtype=int)
+
+        def work(part: slice) -> None:
+            done[part] += 1
+
+        in_parts(work, size, 3)
+        return bool((done == 1).all())
+
+    with ThreadPoolExecutor(callers) as others:
+        assert all(others.map(call, range(20 * callers)))
+
+
+def test_helpers_are_kept_for_the_next_batch() -> None:
+    """No call starts more of them than there are processors."""
+    barrier = Barrier(2)
+
+    def meet(_part: slice) -> None:
+        barrier.wait(timeout=60)
+
+    for _ in range(20):
+        in_parts(meet, 2, 2)
+    helpers = [thread for thread in enumerate_threads() if thread.name.startswith("engine")]
+    assert 1 <= len(helpers) <= (os.cpu_count() or 1)
 
 
 def test_while_writes_are_recorded_there_is_one_thread() -> None:
