@@ -45,6 +45,7 @@ from engine.landscape import Building, BuildingPortal, LandBlock
 from engine.object_call import ObjectCall, Target
 from engine.objects import Obstacle, Part, Weenie
 from engine.placing import Placement, PlacementResult, place
+from engine.plan import Plan, Stage
 from engine.pose import Pose
 from engine.prepared import Prepared
 from engine.query import CollisionCall, ContactPlane, Move, Mover, PathState, Seed
@@ -76,6 +77,7 @@ __all__ = [
     "PathState",
     "Placement",
     "PlacementResult",
+    "Plan",
     "Portal",
     "Pose",
     "PoseError",
@@ -85,6 +87,7 @@ __all__ = [
     "Restriction",
     "Seed",
     "Shape",
+    "Stage",
     "Target",
     "UndeterminedError",
     "Weenie",

@@ -11,6 +11,7 @@ from engine.body_layout import MAX_RECORDS, STATUS_CROWDED
 from engine.errors import CrowdedError, QueryError, RecursionBoundError, UndeterminedError
 from engine.kernels import program
 from engine.object_call import ObjectCall, object_rows
+from engine.plan import FULL_PLAN, NO_PLAN, Plan
 from engine.query import CollisionCall, Move, collision_rows, move_rows
 from engine.threads import in_parts
 from engine.tracing import runnable
@@ -22,13 +23,15 @@ if TYPE_CHECKING:
     from engine.world import World
 
 
-def resolve(world: World, move: Move) -> Any:
+def resolve(world: World, move: Move, *, plan: Plan = FULL_PLAN) -> Any:
     """Move, or put down, one mover.
 
     Parameters
     ----------
     world : World
     move : Move
+    plan : Plan
+        Which work may be left out; it changes no result.
 
     Returns
     -------
@@ -47,10 +50,12 @@ def resolve(world: World, move: Move) -> Any:
     -----
     retail: CTransition::find_valid_position 0x0050C310, documents 04 and 05
     """
-    return resolve_many(world, [move])[0]
+    return resolve_many(world, [move], plan=plan)[0]
 
 
-def resolve_many(world: World, moves: Sequence[Move] | Rows, *, threads: int = 1) -> Rows:
+def resolve_many(
+    world: World, moves: Sequence[Move] | Rows, *, threads: int = 1, plan: Plan = FULL_PLAN
+) -> Rows:
     """Move many movers, each as if it were alone; results in the same order.
 
     `moves` are Move objects, or rows of `engine.layout.QUERY_DTYPE` made by `engine.query.move_rows`.
@@ -58,7 +63,7 @@ def resolve_many(world: World, moves: Sequence[Move] | Rows, *, threads: int = 1
     have been answered, and holds the answers. See `resolve`.
     """
     rows = moves if isinstance(moves, np.ndarray) else move_rows(world, moves)
-    return _run(program.RESOLVE, world, rows, threads)
+    return _run(program.RESOLVE, world, rows, threads, plan)
 
 
 def find_collisions(world: World, call: CollisionCall) -> Any:
@@ -90,7 +95,7 @@ def find_collisions_many(world: World, calls: Sequence[CollisionCall] | Rows, *,
     `threads` share them, with the same results for any number. See `find_collisions`.
     """
     rows = calls if isinstance(calls, np.ndarray) else collision_rows(world, calls)
-    return _run(program.COLLIDE, world, rows, threads)
+    return _run(program.COLLIDE, world, rows, threads, NO_PLAN)
 
 
 def find_object_collisions(world: World, call: ObjectCall) -> Any:
@@ -124,10 +129,10 @@ def find_object_collisions_many(
     `threads` share them, with the same results for any number. See `find_object_collisions`.
     """
     rows = calls if isinstance(calls, np.ndarray) else object_rows(world, calls)
-    return _run(program.MEET, world, rows, threads)
+    return _run(program.MEET, world, rows, threads, NO_PLAN)
 
 
-def _run(job: int, world: World, rows: Rows, threads: int) -> Rows:
+def _run(job: int, world: World, rows: Rows, threads: int, plan: Plan) -> Rows:
     if rows.dtype != at.QUERY_DTYPE:
         raise QueryError("rows", "not of engine.layout.QUERY_DTYPE")
     # Of rows that may only be read Numba would compile everything once more.
@@ -137,7 +142,7 @@ def _run(job: int, world: World, rows: Rows, threads: int) -> Rows:
     run = runnable(program.run)
 
     def work(part: slice) -> None:
-        run(world.floats, world.ints, world.new_row(), job, queries[part], answers[part])
+        run(world.floats, world.ints, world.new_row(plan=plan), job, queries[part], answers[part])
 
     in_parts(work, len(rows), threads)
     check_status(results["status"], results)

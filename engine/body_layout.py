@@ -78,6 +78,8 @@ B_REPORTED: Final = _row.field("reported")
 """Whether a game object was told of a collision."""
 B_NODES_VISITED: Final = _row.field("nodes_visited")
 B_POLYGONS_TESTED: Final = _row.field("polygons_tested")
+B_SKIPPED: Final = _row.field("skipped", 4)
+"""How often each shortcut was taken, as in `engine.layout.SKIPPED`."""
 B_STATUS: Final = _row.field("status")
 """`engine.layout.STATUS_OK`, or why the tick could not be finished."""
 REPORT_SIZE: Final = frozen(_row.size - REPORT)

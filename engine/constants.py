@@ -211,3 +211,15 @@ STATIONARY_TS: Final = frozen(0x70)
 """All that count ticks without movement (HC-6)."""
 ACTIVE_TS: Final = frozen(0x80)
 CHECK_ETHEREAL_TS: Final = frozen(0x100)
+
+# The broad phase (`engine.kernels.broad` derives them); the engine's own.
+BOUND_SLACK: Final = 0.03
+"""What bounds are enlarged by, metres: sqrt(EPS) of nearly touching spheres, CELL_SLACK, and unit vectors."""
+BOUND_ROUNDING: Final = 2.0**-15
+"""The same for roundings, as a part of a coordinate: 512 stores to float32."""
+BOUND_TILT: Final = 0.0025
+"""How much a matrix may stretch whose quaternion is of unit length within EPS5, as a part of a length."""
+FLIGHT_STEPS: Final = 64.0
+"""Most sub-steps that are bounded together."""
+UNBOUNDED: Final = math.inf
+"""Radius of a ball about a polygon that its edges do not bound."""

@@ -9,6 +9,7 @@ import numpy as np
 from engine import layout as at
 from engine.batch import check_status
 from engine.kernels import program
+from engine.plan import FULL_PLAN, NO_PLAN, Plan
 from engine.query import CollisionCall, Move, collision_rows, move_rows
 from engine.tracing import runnable
 
@@ -23,6 +24,8 @@ class Prepared:
     ----------
     world : World
     query : Move or CollisionCall
+    plan : Plan
+        Which work of a move may be left out; it changes no result.
 
     Attributes
     ----------
@@ -52,11 +55,11 @@ class Prepared:
     0.5
     """
 
-    def __init__(self, world: World, query: Move | CollisionCall) -> None:
+    def __init__(self, world: World, query: Move | CollisionCall, *, plan: Plan = FULL_PLAN) -> None:
         if isinstance(query, Move):
             rows, job = move_rows(world, [query]), program.RESOLVE
         else:
-            rows, job = collision_rows(world, [query]), program.COLLIDE
+            rows, job, plan = collision_rows(world, [query]), program.COLLIDE, NO_PLAN
         results = np.zeros(1, dtype=at.RESULT_DTYPE)
         self.query: Final[Any] = rows[0]
         self.result: Final[Any] = results[0]
@@ -64,7 +67,7 @@ class Prepared:
         self._arguments: Final = (
             world.floats,
             world.ints,
-            world.new_row(),
+            world.new_row(plan=plan),
             job,
             rows.view(np.float64).reshape(1, at.QUERY_SIZE),
             self._numbers.reshape(1, at.RESULT_SIZE),

@@ -17,6 +17,7 @@ from engine.float32 import float32_array
 from engine.kernels import program, tick_velocity
 from engine.kernels.tick_gates import MAX_TICKS
 from engine.layout import VECTOR_SIZE
+from engine.plan import FULL_PLAN, Plan
 from engine.threads import in_parts
 from engine.tracing import runnable
 
@@ -30,7 +31,7 @@ if TYPE_CHECKING:
     from engine.world import World
 
 
-def step(world: World, body: Any, dt: float) -> Any:
+def step(world: World, body: Any, dt: float, *, plan: Plan = FULL_PLAN) -> Any:
     """Let one tick pass for one body.
 
     Parameters
@@ -40,6 +41,8 @@ def step(world: World, body: Any, dt: float) -> Any:
         A body as it is before its first tick, or what an earlier tick returned; it is not changed.
     dt : float
         Length of the tick in seconds, rounded to float32; retail's are from 1/30 to 0.2.
+    plan : Plan
+        Which work may be left out; it changes nothing but ``skipped`` and the counters of work.
 
     Returns
     -------
@@ -63,10 +66,12 @@ def step(world: World, body: Any, dt: float) -> Any:
         rows = np.empty(1, dtype=BODY_DTYPE)
         _check_type(body.dtype)
         rows[0] = body
-    return step_many(world, rows, dt, 1)[0]
+    return step_many(world, rows, dt, 1, plan=plan)[0]
 
 
-def step_many(world: World, rows: Rows, dt: float, ticks: int, *, threads: int = 1) -> Rows:
+def step_many(
+    world: World, rows: Rows, dt: float, ticks: int, *, threads: int = 1, plan: Plan = FULL_PLAN
+) -> Rows:
     """Let ticks pass for many bodies, each as if it were alone; the rows are changed, and returned.
 
     `threads` share the bodies, with the same results for any number.
@@ -81,14 +86,14 @@ def step_many(world: World, rows: Rows, dt: float, ticks: int, *, threads: int =
     run, times = runnable(program.run), np.array([[quantum, float(ticks)]])
 
     def work(part: slice) -> None:
-        run(world.floats, world.ints, world.new_row(), program.STEP, numbers[part], times)
+        run(world.floats, world.ints, world.new_row(plan=plan), program.STEP, numbers[part], times)
 
     in_parts(work, len(rows), threads)
     check_status(rows["status"])
     return rows
 
 
-def update_many(world: World, rows: Rows, now: float, *, threads: int = 1) -> Rows:
+def update_many(world: World, rows: Rows, now: float, *, threads: int = 1, plan: Plan = FULL_PLAN) -> Rows:
     """Let time pass up to `now` for many bodies, in ticks as long as retail's; the rows are changed.
 
     The time since a body's ``update_time`` is divided into ticks of 0.2 seconds and a remainder, which
@@ -102,6 +107,8 @@ def update_many(world: World, rows: Rows, now: float, *, threads: int = 1) -> Ro
         Seconds, on the clock of ``update_time``; not rounded to float32.
     threads : int
         How many share the bodies; the results are the same for any number.
+    plan : Plan
+        Which work may be left out.
 
     Notes
     -----
@@ -116,7 +123,7 @@ def update_many(world: World, rows: Rows, now: float, *, threads: int = 1) -> Ro
     def work(part: slice) -> None:
         times = np.zeros((3, int(MAX_TICKS)), dtype=np.float64)
         times[0, 0] = now
-        run(world.floats, world.ints, world.new_row(), program.UPDATE, numbers[part], times)
+        run(world.floats, world.ints, world.new_row(plan=plan), program.UPDATE, numbers[part], times)
 
     in_parts(work, len(rows), threads)
     check_status(rows["status"])

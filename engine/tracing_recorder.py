@@ -162,6 +162,7 @@ class Recorder:
         }
         self._world = (given["wf"], given["wi"]) if "wf" in given else None
         self._row = np.asarray(given["s"])
+        self._row[at.PLAN] = 0.0
         watched = self._row.view(WatchedRow)
         watched.recorder = self
         try:

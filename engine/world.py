@@ -7,6 +7,8 @@ from typing import TYPE_CHECKING, Final
 import numpy as np
 
 from engine import layout as at
+from engine.compiling.balls import write_plates
+from engine.compiling.bounds import write_bounds
 from engine.compiling.cells import CellNumbers, ObjectLists, write_buildings, write_cells
 from engine.compiling.ids import id_table
 from engine.compiling.objects import Parts, write_objects
@@ -15,6 +17,7 @@ from engine.compiling.storage import Storage
 from engine.compiling.terrain import DETAILS, SIDE
 from engine.errors import WorldError
 from engine.memory import aligned
+from engine.plan import NO_PLAN, Plan
 from engine.shadows import register
 
 if TYPE_CHECKING:
@@ -89,9 +92,13 @@ class World:
         header |= write_objects(storage, parts, lists.obstacles, lists.where)
         header |= parts.write(storage)
         restricted = write_restrictions(storage, numbers, restrictions or {})
-        header |= write_cells(storage, numbers, lists.write(storage), restricted, cells, blocks, houses)
+        listed = lists.write(storage)
+        header |= write_cells(storage, numbers, listed, restricted, cells, blocks, houses)
         header |= _write_ids(storage, numbers.keys())
         header |= self._rows(len(cells) + len(numbers.unloaded))
+        counts = len(lists.obstacles), len(buildings)
+        header |= write_bounds(storage, header, cells, numbers.ids, listed, counts)
+        header |= write_plates(storage, header)
         self.floats, self.ints = storage.finish(header)
         self._polygons: Final = storage.polygons
 
@@ -129,14 +136,16 @@ class World:
         """Return where the record of a shape's polygon begins in `floats`."""
         return self._polygons[shape] + int(self.shapes[shape].polygon_offsets[polygon])
 
-    def new_row(self, trace_capacity: int = 0) -> Array:
+    def new_row(self, trace_capacity: int = 0, plan: Plan = NO_PLAN) -> Array:
         """Return a row of state for queries in this world, with room for a trace.
 
-        The lists behind the state are not cleared: each has a count, and nothing beyond it is read.
+        With a trace no shortcut is taken: it tells of every call of a tree that retail makes. The lists
+        behind the state are not cleared: each has a count, and nothing beyond it is read.
         """
         row: Array = aligned(int(self.ints[at.WORLD_ROW]) + trace_capacity, np.float64)
         row[: at.STATE_SIZE] = 0.0
         row[at.TRACE_CAPACITY] = trace_capacity
+        row[at.PLAN] = 0 if trace_capacity else plan.skip
         return row
 
     def touched(self, row: Array) -> list[int]:

@@ -28,6 +28,8 @@ class Storage:
     ----------
     polygons : list of int
         Where the polygon records of each shape begin.
+    leaf_lists : list of (int, int)
+        Where the leaves' lists of each shape begin in the integers, and how long they are together.
     """
 
     def __init__(self, shapes: Sequence[Shape]) -> None:
@@ -40,12 +42,17 @@ class Storage:
         self._floats: list[Array] = []
         self._ints: list[Ints] = []
         self.polygons: Final[list[int]] = []
+        self.leaf_lists: Final[list[tuple[int, int]]] = []
         self._roots: dict[int, int] = {}
         self._planes: dict[int, tuple[int, int]] = {}
         first = header_nodes
         for index, shape in enumerate(shapes):
             self._add_shape(index, shape, first)
             first += len(shape.node_ints)
+
+    def align(self) -> None:
+        """Let the next numbers begin where a cache line does."""
+        self.add_floats(np.zeros(-self._num_floats % int(at.POLYGON_ALIGNMENT)))
 
     def add_floats(self, values: Array) -> int:
         """Append numbers; return where they begin."""
@@ -83,10 +90,11 @@ class Storage:
         """Append a shape; its tree gets node numbers from `first` on."""
         polygons = shape.polygon_floats.copy()
         polygons[shape.polygon_offsets + at.POLYGON_SHAPE] = index
-        self.add_floats(np.zeros(-self._num_floats % int(at.POLYGON_ALIGNMENT)))
+        self.align()
         base = self.add_floats(polygons)
         self.polygons.append(base)
         leaf_lists = self.add_ints(base + shape.polygon_offsets[shape.leaf_polygons])
+        self.leaf_lists.append((leaf_lists, len(shape.leaf_polygons)))
         self._node_floats.append(shape.node_floats.ravel())
         self._node_ints.append(_packed(shape.node_ints, first, leaf_lists))
         self._roots[id(shape)] = first

@@ -18,6 +18,8 @@ from engine.kernels.compile import inlined, kernel
 from engine.kernels.land_cells import find_terrain_collisions
 from engine.kernels.objects import test_part
 from engine.kernels.path import enter_localspace
+from engine.kernels.plan import building_beyond, object_beyond, objects_beyond
+from engine.kernels.plan_portals import list_alone, reaches_no_portal
 from engine.kernels.trace import BUILDING_CALL, trace_close, trace_open
 from engine.layout import (
     BLDG_CHECK,
@@ -45,6 +47,7 @@ from engine.layout import (
     OBSTRUCTION_ETHEREAL,
     OI_STATE,
     ORIGIN,
+    SKIPPED_PORTALS,
     WORLD_BUILDINGS,
     WORLD_OBJECT_INTS,
 )
@@ -61,9 +64,11 @@ def _building_part(wi: Ints, cell: int) -> int:
 
 
 @inlined
-def fixed_count(wi: Ints, cell: int) -> int:
-    """Return how many fixed things are in a cell: its environment, and perhaps a building."""
-    return 2 if is_land(wi, cell) and wi[ints_of(wi, cell) + LAND_BUILDING] != NO_BUILDING else 1
+def fixed_count(wf: Array, wi: Ints, s: Array, cell: int) -> int:
+    """Return how many fixed things of a cell are tested: its environment, and perhaps a building."""
+    if not is_land(wi, cell) or wi[ints_of(wi, cell) + LAND_BUILDING] == NO_BUILDING:
+        return 1
+    return 1 if building_beyond(wf, wi, s, wi[ints_of(wi, cell) + LAND_BUILDING]) else 2
 
 
 @kernel
@@ -126,14 +131,15 @@ def accept_fixed(wi: Ints, s: Array, cell: int, fixed: int, ts: int) -> None:
 
 
 @inlined
-def object_count(wi: Ints, s: Array, cell: int) -> int:
-    """Return how many objects of a cell are tested: for an initial placement none.
+def object_count(wf: Array, wi: Ints, s: Array, cell: int) -> int:
+    """Return how many objects of a cell are looked at: for an initial placement none.
 
     retail: CObjCell::find_obj_collisions 0x0052B750, 09 3.2.1
     """
     if s[INSERT_TYPE] == INITIAL_PLACEMENT_INSERT:
         return 0
-    return wi[ints_of(wi, cell) + CELL_OBJECT_COUNT]
+    count = wi[ints_of(wi, cell) + CELL_OBJECT_COUNT]
+    return 0 if objects_beyond(wf, wi, s, cell, count) else count
 
 
 @inlined
@@ -152,6 +158,12 @@ def is_mover(wi: Ints, s: Array, thing: int) -> bool:
     return mover != 0.0 and wi[wi[WORLD_OBJECT_INTS] + OBJECT_INTS * thing + OBJECT_ID] == mover
 
 
+@inlined
+def is_tested(wf: Array, wi: Ints, s: Array, thing: int) -> bool:
+    """Say whether an object is tested: it is not the mover itself, and in reach."""
+    return not is_mover(wi, s, thing) and not object_beyond(wf, wi, s, thing)
+
+
 @kernel
 def build_cell_array(wf: Array, wi: Ints, s: Array) -> int:
     """List the cells that the check position's spheres reach; return the one that contains sphere 0.
@@ -162,7 +174,10 @@ def build_cell_array(wf: Array, wi: Ints, s: Array) -> int:
     """
     s[CELL_ARRAY_VALID] = 1.0
     s[HITS_INTERIOR_CELL] = 0.0
-    x, y = s[CHECK_POS + ORIGIN], s[CHECK_POS + ORIGIN + 1]
     hint, count = int(s[CHECK_CELL]), int(s[NUM_SPHERE])
+    if reaches_no_portal(wf, wi, s, hint):
+        s[SKIPPED_PORTALS] += 1.0
+        return list_alone(wf, wi, s, hint)
+    x, y = s[CHECK_POS + ORIGIN], s[CHECK_POS + ORIGIN + 1]
     found = find_cell_list(wf, wi, s, hint, s[CHECK_POS], x, y, s, GLOBAL_SPHERE, count)
     return NO_CELL if found == UNTOUCHED else found

@@ -10,7 +10,7 @@ from engine.kernels.cells import (
     accept_fixed,
     build_cell_array,
     fixed_count,
-    is_mover,
+    is_tested,
     object_count,
     object_in,
     test_fixed,
@@ -90,9 +90,9 @@ def find_obj_collisions(wf: Array, wi: Ints, s: Array, cell: int) -> int:
 
     retail: CObjCell::find_obj_collisions 0x0052B750, 09 3.2
     """
-    for i in range(object_count(wi, s, cell)):
+    for i in range(object_count(wf, wi, s, cell)):
         thing = object_in(wi, cell, i)
-        if not is_mover(wi, s, thing):
+        if is_tested(wf, wi, s, thing):
             ts = find_object(wf, wi, s, thing)
             if ts != OK:
                 return ts
@@ -107,7 +107,7 @@ def find_in_cell(wf: Array, wi: Ints, s: Array, cell: int) -> int:
     """
     if is_restricted(wi, cell) and check_entry_restrictions(wf, wi, s, cell) != OK:
         return COLLIDED
-    for fixed in range(fixed_count(wi, cell)):
+    for fixed in range(fixed_count(wf, wi, s, cell)):
         ts = test_fixed(wf, wi, s, cell, fixed)
         if ts == NEEDS_STEP_UP:
             ts = answer_step_up(wf, wi, s)

@@ -18,6 +18,7 @@ from engine.constants import (
 )
 from engine.kernels.compile import entry, inlined, kernel
 from engine.kernels.object_info import validate_walkable
+from engine.kernels.plan import ground_beyond
 from engine.kernels.polygon import polygon_make_plane, polygon_point_in_poly2d
 from engine.kernels.polygon_record import polygon_make_edges
 from engine.kernels.position import block_offset
@@ -117,6 +118,8 @@ def find_terrain_collisions(wf: Array, wi: Ints, s: Array, cell: int) -> int:
     """
     land_cell = wf[wi[WORLD_CELL_FLOATS] + CELL_FLOATS * cell + CELL_ID]
     bx, by = block_offset(s[CHECK_POS], land_cell)
+    if not _is_wall(wi, s, wi[WORLD_CELL_INTS] + CELL_INTS * cell) and ground_beyond(wf, wi, s, cell, bx, by):
+        return OK
     lx, ly = f32(s[GLOBAL_LOW_POINT] - bx), f32(s[GLOBAL_LOW_POINT + 1] - by)
     poly = find_terrain_poly(wf, wi, cell, lx, ly)
     if poly == NO_POLYGON:

@@ -15,7 +15,7 @@ from engine.kernels.cells import (
     accept_fixed,
     build_cell_array,
     fixed_count,
-    is_mover,
+    is_tested,
     object_count,
     object_in,
     test_fixed,
@@ -82,14 +82,14 @@ def _probe_cell(wf: Array, wi: Ints, s: Array, cell: int) -> int:
     """
     if is_restricted(wi, cell) and check_entry_restrictions(wf, wi, s, cell) != OK:
         return COLLIDED
-    for fixed in range(fixed_count(wi, cell)):
+    for fixed in range(fixed_count(wf, wi, s, cell)):
         ts = _without_step_up(s, test_fixed(wf, wi, s, cell, fixed))
         accept_fixed(wi, s, cell, fixed, ts)
         if ts != OK:
             return ts
-    for i in range(object_count(wi, s, cell)):
+    for i in range(object_count(wf, wi, s, cell)):
         thing = object_in(wi, cell, i)
-        if not is_mover(wi, s, thing):
+        if is_tested(wf, wi, s, thing):
             ts = _probe_object(wf, wi, s, thing)
             if ts != OK:
                 return ts

@@ -36,13 +36,14 @@ def prepare(s: Array, q: Array) -> None:
 
 @inlined
 def clear(s: Array) -> None:
-    """Forget the last transition; the trace's capacity is kept, and the check position is turned nowhere.
+    """Forget the last transition; plan and trace's capacity are kept, the check position is turned nowhere.
 
     retail: CTransition::init 0x00509DD0, SPHEREPATH::init 0x0050C330
     """
-    capacity = s[at.TRACE_CAPACITY]
+    plan, capacity = s[at.PLAN], s[at.TRACE_CAPACITY]
     for i in range(at.STATE_SIZE):
         s[i] = 0.0
+    s[at.PLAN] = plan
     s[at.TRACE_CAPACITY] = capacity
     s[at.CURR_CELL] = at.NO_CELL
     s[at.CHECK_CELL] = at.NO_CELL
@@ -149,6 +150,7 @@ def report(wf: Array, s: Array, out: Array, result: int) -> None:
     out[at.R_POLYGONS_TESTED] = s[at.POLYGONS_TESTED]
     out[at.R_CELLS_LISTED] = s[at.CELLS_LISTED]
     out[at.R_OBJECTS_TESTED] = s[at.OBJECTS_TESTED]
+    copy_four(out, at.R_SKIPPED, s, at.SKIPPED)
     out[at.R_STATUS] = s[at.STATUS]
 
 

@@ -22,6 +22,7 @@ from engine.body_layout import (
     B_PHYSICS_TIME,
     B_POLYGONS_TESTED,
     B_POSITION,
+    B_SKIPPED,
     B_STATE,
     B_STATUS,
     B_TRANSIENT,
@@ -55,7 +56,7 @@ from engine.kernels.tick_position import set_position_internal
 from engine.kernels.tick_seed import seed_transition
 from engine.kernels.tick_velocity import has_bit, set_bit, set_velocity, update_physics_internal
 from engine.kernels.transition import find_valid_position
-from engine.kernels.vector import copy_vector, load, store
+from engine.kernels.vector import copy_four, copy_vector, load, store
 from engine.layout import (
     COLLIDED_WITH_ENVIRONMENT,
     COLLISION_NORMAL,
@@ -70,6 +71,7 @@ from engine.layout import (
     POLYGONS_TESTED,
     POSITION_SIZE,
     QUATERNION,
+    SKIPPED,
     STATUS,
     STATUS_OK,
     TRACE_LENGTH,
@@ -239,3 +241,4 @@ def _report(s: Array, b: Array) -> None:
     b[B_COLLIDED_WITH_ENVIRONMENT] = s[COLLIDED_WITH_ENVIRONMENT]
     b[B_NODES_VISITED] = s[NODES_VISITED]
     b[B_POLYGONS_TESTED] = s[POLYGONS_TESTED]
+    copy_four(b, B_SKIPPED, s, SKIPPED)

@@ -23,6 +23,7 @@ from engine.kernels.frame import frame_interpolate_rotation, frame_set_rotate
 from engine.kernels.insertion import transitional_insert
 from engine.kernels.path import add_offset_to_check_pos, set_check_pos
 from engine.kernels.placement import find_placement_position
+from engine.kernels.plan_flight import flies_freely, fly
 from engine.kernels.position import position_get_offset
 from engine.kernels.rounding import f32
 from engine.kernels.validation import validate_transition
@@ -133,6 +134,7 @@ def _find_transitional_position(wf: Array, wi: Ints, s: Array) -> bool:
         set_check_pos(s, CURR_POS, s[CURR_CELL])
         build_cell_array(wf, wi, s)
         return True
+    flies = flies_freely(wf, wi, s, ox, oy, oz, steps)
     ts = OK
     i = 0.0
     while i < steps:
@@ -145,7 +147,7 @@ def _find_transitional_position(wf: Array, wi: Ints, s: Array) -> bool:
         if not free:
             t = f32((i + 1.0) / steps)
             frame_interpolate_rotation(s, CHECK_POS, s, BEGIN_POS, END_POS, t)
-        ts = _sub_step(wf, wi, s, x, y, z)
+        ts = _sub_step(wf, wi, s, x, y, z, flies)
         clipped = int(s[OI_STATE]) & PATH_CLIPPED != 0 and s[COLLISION_NORMAL_VALID] != 0.0
         if s[FRAMES_STATIONARY_FALL] != 0.0 or clipped:
             break
@@ -169,12 +171,13 @@ def _last_viewer_step(
 
 
 @kernel
-def _sub_step(wf: Array, wi: Ints, s: Array, x: float, y: float, z: float) -> int:
-    """Move by one offset, as far as nothing is in the way.
+def _sub_step(wf: Array, wi: Ints, s: Array, x: float, y: float, z: float, flies: bool) -> int:
+    """Move by one offset, as far as nothing is in the way; `flies`: it is known that nothing is.
 
     retail: FT-11, FT-12
     """
     s[SLIDING_VALID] = 0.0
     forget_contact(s)
     add_offset_to_check_pos(s, x, y, z)
-    return validate_transition(wf, wi, s, transitional_insert(wf, wi, s, TRANSITION_ATTEMPTS))
+    ts = OK if flies and fly(wf, wi, s) else transitional_insert(wf, wi, s, TRANSITION_ATTEMPTS)
+    return validate_transition(wf, wi, s, ts)

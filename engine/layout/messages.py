@@ -96,6 +96,8 @@ R_NODES_VISITED: Final = _result.field("nodes_visited")
 R_POLYGONS_TESTED: Final = _result.field("polygons_tested")
 R_CELLS_LISTED: Final = _result.field("cells_listed")
 R_OBJECTS_TESTED: Final = _result.field("objects_tested")
+R_SKIPPED: Final = _result.field("skipped", 4)
+"""How often each shortcut was taken, as in `SKIPPED`."""
 R_STATUS: Final = _result.field("status")
 
 RESULT_SIZE: Final = frozen(_result.size)

@@ -127,9 +127,22 @@ SAVED_POS: Final = _row.field("saved_pos", POSITION_SIZE)
 """The local in which CTransition::check_walkable keeps the check position (WK-3)."""
 SCRATCH_FRAME: Final = _row.field("scratch_frame", POSITION_SIZE)
 """The frame that find_placement_pos turns around."""
+PLAN: Final = _row.field("plan")
+"""Which shortcuts may be taken: bits `PLAN_PORTALS`, ... (`engine.plan`)."""
+SKIPPED: Final = _row.field("skipped", 4)
+"""How often each was, in the order of the bits; of objects, how many were passed over."""
 TRACE_LENGTH: Final = _row.field("trace_length")
 TRACE_CAPACITY: Final = _row.field("trace_capacity")
 """Places for trace characters behind the row; 0 turns the trace off."""
+
+PLAN_PORTALS: Final = frozen(1)
+PLAN_OBJECTS: Final = frozen(2)
+PLAN_GROUND: Final = frozen(4)
+PLAN_FLIGHT: Final = frozen(8)
+SKIPPED_PORTALS: Final = frozen(SKIPPED)
+SKIPPED_OBJECTS: Final = frozen(SKIPPED + 1)
+SKIPPED_GROUND: Final = frozen(SKIPPED + 2)
+SKIPPED_FLIGHT: Final = frozen(SKIPPED + 3)
 
 STATE_SIZE: Final = frozen(_row.size)
 STATE_DTYPE: Final = _row.dtype()

@@ -6,7 +6,7 @@ import math
 from typing import Final
 
 from engine.constants import frozen
-from engine.layout.rows import POSITION_SIZE, Row
+from engine.layout.rows import PLANE_SIZE, POSITION_SIZE, SPHERE_SIZE, Row
 
 # --- the world's arrays ----------------------------------------------------------------------------
 # floats: node k at NODE_FLOATS * k (splitting plane, bounding sphere), then polygon, plane, cell, part,
@@ -78,6 +78,11 @@ WORLD_CELL_LIST: Final = _header.field("cell_list")
 WORLD_TOUCHED: Final = _header.field("touched")
 WORLD_ROW: Final = _header.field("row")
 """How long a row is without its trace."""
+WORLD_CELL_BOUNDS: Final = _header.field("cell_bounds")
+WORLD_OBJECT_BOUNDS: Final = _header.field("object_bounds")
+WORLD_BUILDING_BOUNDS: Final = _header.field("building_bounds")
+WORLD_LEAF_BOUNDS: Final = _header.field("leaf_bounds")
+"""The plate of the polygon that ``ints[i]`` of a leaf's list names is at this place plus `PLATE_SIZE` * i."""
 
 FIRST_NODE: Final = frozen(math.ceil(_header.size / NODE_INTS))
 """The nodes before it do not exist: their integers are the header, and 0 says `no tree`."""
@@ -179,3 +184,19 @@ FAMILY_SPHERES: Final = frozen(3)
 CYLSPHERE_SIZE: Final = frozen(5)
 """A cylsphere record: low point x y z, radius, height, in object space, unscaled."""
 CYLSPHERE_HEIGHT: Final = frozen(4)
+
+# --- bounds, for shortcuts (`engine.kernels.broad`) ------------------------------------------------
+BALL_SIZE: Final = frozen(5)
+"""A bounding ball: centre x y z in the block of a cell, radius (negative: nothing to bound), cell id."""
+BALL_CELL: Final = frozen(4)
+PLATE_SIZE: Final = PLANE_SIZE + SPHERE_SIZE
+"""A polygon's plane and the ball about it, side by side for all that a leaf lists."""
+PLATE_BALL: Final = PLANE_SIZE
+BOUNDS_SIZE: Final = BALL_SIZE + 3
+"""Of a cell: the ball about its objects, its fences, and whether it may be flown through unseen."""
+BOUNDS_FENCES: Final = BALL_SIZE
+"""Offset of the first plane; one for each portal."""
+BOUNDS_FENCE_COUNT: Final = BALL_SIZE + 1
+BOUNDS_PASSABLE: Final = BALL_SIZE + 2
+NOT_FENCED: Final = frozen(-1)
+"""Fence count of a cell that has a portal which leads into a cell without containment planes."""

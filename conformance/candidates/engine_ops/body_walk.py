@@ -7,22 +7,24 @@ from typing import TYPE_CHECKING, Any, Final
 import numpy as np
 
 from conformance.candidates.engine_ops.bodies import LiveBody
-from conformance.candidates.engine_ops.running import TRACE_CAPACITY
+from conformance.candidates.engine_ops.running import TRACE_CAPACITY, demand_same, demand_same_answer
 from conformance.candidates.engine_ops.state_block import trace_text
 from conformance.candidates.engine_ops.values import floats, vector
 from conformance.candidates.engine_ops.world_cache import world_of
 from conformance.candidates.engine_ops.worlds import engine_world
 from engine import layout as at
 from engine.batch import check_status
-from engine.body_layout import OUTCOMES
+from engine.body_layout import BODY_DTYPE, OUTCOMES
 from engine.constants import CONTACT_TS, SLIDING_TS
 from engine.kernels import program, tick_velocity
+from engine.plan import FULL_PLAN
 from engine.tracing import runnable
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Mapping
 
     from conformance.query import Fields, Query
+    from engine.kernels.types import Array
     from engine.world import World
 
 IDENTITY: Final = [1.0, 0.0, 0.0, 0.0]
@@ -76,9 +78,13 @@ class Recorder:
         return fields | ({"kill": kills} if kills else {})
 
     def _step(self, quantum: float) -> str:
-        """Run a tick and return its trace; with too little room for it, the tick is run again."""
+        """Run a tick and return its trace; with too little room for it, the tick is run again.
+
+        It is run with shortcuts besides (`conformance.candidates.engine_ops.running`).
+        """
         row, capacity = self.body.row, TRACE_CAPACITY
         before = row.copy()
+        short, touched = self._step_with_shortcuts(before.copy(), quantum)
         while True:
             state = self.world.new_row(trace_capacity=capacity)
             step, times = runnable(program.run), np.array([[quantum, 1.0]])
@@ -87,9 +93,19 @@ class Recorder:
             trace = trace_text(state, self.world.ints)
             if trace is not None:
                 self.touched = self.world.touched(state)
+                demand_same_answer(short, self.body.record)
+                demand_same("touched", touched, self.touched)
                 return trace
             row[:] = before
             capacity = int(state[at.TRACE_LENGTH])
+
+    def _step_with_shortcuts(self, row: Array, quantum: float) -> tuple[Any, list[int]]:
+        """Run a tick of a body's row as batches do; return its record, and the objects it touched."""
+        world = self.world
+        state = world.new_row(plan=FULL_PLAN)
+        times = np.array([[quantum, 1.0]])
+        program.run(world.floats, world.ints, state, program.STEP, row.reshape(1, -1), times)
+        return row.view(BODY_DTYPE)[0], world.touched(state)
 
     def _always(self) -> Fields:
         """Write position and velocity, and what has changed since the last tick."""

@@ -1,4 +1,8 @@
-"""Running one query in a world, with its trace."""
+"""Running one query in a world: a transition with shortcuts, and again without, for its trace.
+
+A trace tells of every call of a tree, so that a row which keeps one takes no shortcut (`engine.plan`).
+Both runs have to give the same answer: every transition of the suite tests every shortcut.
+"""
 
 from __future__ import annotations
 
@@ -11,13 +15,26 @@ from conformance.candidates.engine_ops.state_block import trace_text
 from engine import layout as at
 from engine.batch import check_status
 from engine.kernels import program
+from engine.plan import FULL_PLAN
 from engine.tracing import runnable
 
 if TYPE_CHECKING:
     from engine.world import World
 
+WORK_FIELDS: Final = frozenset(
+    ("nodes_visited", "polygons_tested", "cells_listed", "objects_tested", "skipped")
+)
+"""Fields of records that count work."""
 TRACE_CAPACITY: Final = 1024
 """Room for a trace at first; it grows when a trace turns out to be longer."""
+
+
+class ShortcutError(Exception):
+    """A shortcut has changed an answer: `field`, what it is with shortcuts, and without."""
+
+    def __init__(self, field: str, short: Any, full: Any) -> None:
+        self.field = field
+        super().__init__(f"with shortcuts {field} is {short}, without {full}")
 
 
 def run(job: int, world: World, row: Any) -> tuple[Any, str]:
@@ -27,7 +44,14 @@ def run(job: int, world: World, row: Any) -> tuple[Any, str]:
 
 
 def run_noting(job: int, world: World, row: Any) -> tuple[Any, str, list[int]]:
-    """Run a query; return its result record, its trace, and the objects it touched, by their indices."""
+    """Run a query; return its result record, its trace, and the objects it touched, by their indices.
+
+    Raises
+    ------
+    ShortcutError
+        If shortcuts change the answer.
+    """
+    short = _run_with_shortcuts(world, row) if job == program.RESOLVE else None
     capacity = TRACE_CAPACITY
     while True:
         state = world.new_row(trace_capacity=capacity)
@@ -37,5 +61,38 @@ def run_noting(job: int, world: World, row: Any) -> tuple[Any, str, list[int]]:
         check_status(result["status"])
         trace = trace_text(state, world.ints)
         if trace is not None:
-            return result[0], trace, world.touched(state)
+            touched = world.touched(state)
+            if short is not None:
+                demand_same_answer(short[0], result[0])
+                demand_same("touched", short[1], touched)
+            return result[0], trace, touched
         capacity = int(state[at.TRACE_LENGTH])
+
+
+def _run_with_shortcuts(world: World, row: Any) -> tuple[Any, list[int]]:
+    """Run a transition as batches do; return its result record, and the objects it touched."""
+    state = world.new_row(plan=FULL_PLAN)
+    result = np.zeros(1, dtype=at.RESULT_DTYPE)
+    query, answer = (numbers.reshape(1, -1) for numbers in (numbers_of(row), result.view(np.float64)))
+    program.run(world.floats, world.ints, state, program.RESOLVE, query, answer)
+    check_status(result["status"])
+    return result[0], world.touched(state)
+
+
+def demand_same_answer(short: Any, full: Any) -> None:
+    """Demand that two records of results, or of bodies, are the same but for counters of work.
+
+    Raises
+    ------
+    ShortcutError
+        Naming the first field that differs in a bit.
+    """
+    for name in short.dtype.names:
+        if name not in WORK_FIELDS and short[name].tobytes() != full[name].tobytes():
+            raise ShortcutError(name, short[name], full[name])
+
+
+def demand_same(field: str, short: Any, full: Any) -> None:
+    """Demand the same of what is compared as it is; raises `ShortcutError`."""
+    if short != full:
+        raise ShortcutError(field, short, full)

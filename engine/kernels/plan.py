@@ -1,0 +1,136 @@
+"""The plan: what of a transition is left out, decided where it would begin (`engine.plan`).
+
+A shortcut stands where retail's code does, asks the broad phase whether what follows is certain to find
+nothing, and leaves in the row what the code would have left that it skips. What the skipped code may
+besides have written is read by nobody: the spheres in the space of what was tested (``localspace_*`` are
+read within a test of a tree, and by SPHEREPATH::set_walkable inside it, always after that test has put
+them there), and the last point of contact.
+
+The row's `PLAN` says which shortcuts may be taken, its `SKIPPED` counters how often each was.
+"""
+
+from __future__ import annotations
+
+import math
+from typing import TYPE_CHECKING
+
+from engine.constants import IS_VIEWER
+from engine.kernels.broad import ball_beyond, bounds_of, listed_ball, slack
+from engine.kernels.cell_array import ints_of
+from engine.kernels.compile import inlined, kernel
+from engine.kernels.polygon import plane_distance
+from engine.kernels.vector import load
+from engine.layout import (
+    CHECK_POS,
+    GLOBAL_SPHERE,
+    LAND_TERRAIN,
+    NUM_SPHERE,
+    OI_STATE,
+    PLAN,
+    PLAN_GROUND,
+    PLAN_OBJECTS,
+    RADIUS,
+    SKIPPED_GROUND,
+    SKIPPED_OBJECTS,
+    SPHERE_SIZE,
+    TERRAIN_POLYGON,
+    WORLD_BUILDING_BOUNDS,
+    WORLD_OBJECT_BOUNDS,
+)
+
+if TYPE_CHECKING:
+    from engine.kernels.types import Array, Ints
+
+_SECOND_SPHERE = GLOBAL_SPHERE + SPHERE_SIZE
+
+
+@inlined
+def allows(s: Array, stage: int) -> bool:
+    """Say whether the row's plan has a shortcut."""
+    return int(s[PLAN]) & stage != 0
+
+
+@kernel
+def _clear_of(wf: Array, s: Array, ball: int) -> bool:
+    """Say whether the mover at the check position is clear of a bounding ball.
+
+    The spheres are bounded by one ball, with the larger of both radii for both: retail tests the second
+    sphere of the mover with the radius of the first (07 2, 10.1).
+    """
+    x, y, z = load(s, GLOBAL_SPHERE)
+    r = s[GLOBAL_SPHERE + RADIUS]
+    if s[NUM_SPHERE] > 1.0:
+        hx = 0.5 * (s[_SECOND_SPHERE] - x)
+        hy = 0.5 * (s[_SECOND_SPHERE + 1] - y)
+        hz = 0.5 * (s[_SECOND_SPHERE + 2] - z)
+        x, y, z = x + hx, y + hy, z + hz
+        r = max(r, s[_SECOND_SPHERE + RADIUS]) + math.sqrt(hx * hx + hy * hy + hz * hz)
+    return ball_beyond(wf, ball, s[CHECK_POS], x, y, z, r + slack(x, y, z))
+
+
+@kernel
+def objects_beyond(wf: Array, wi: Ints, s: Array, cell: int, count: int) -> bool:
+    """Say whether none of a cell's `count` objects is in reach of the mover.
+
+    CPhysicsObj::FindObjCollisions of such an object answers OK: its spheres and cylinders overlap neither
+    sphere of the mover, and no sphere is near the physics sphere of a part. The only thing that it writes
+    is ``obstruction_ethereal``, which it ends with as it was in a transition: 0.
+
+    retail: CObjCell::find_obj_collisions 0x0052B750, 09 3.2
+    """
+    if count == 0 or not allows(s, PLAN_OBJECTS) or not _clear_of(wf, s, bounds_of(wi, cell)):
+        return False
+    s[SKIPPED_OBJECTS] += count
+    return True
+
+
+@kernel
+def object_beyond(wf: Array, wi: Ints, s: Array, thing: int) -> bool:
+    """Say the same of one object.
+
+    retail: CPhysicsObj::FindObjCollisions 0x0050F050, 08 3
+    """
+    if not allows(s, PLAN_OBJECTS) or not _clear_of(wf, s, listed_ball(wi, WORLD_OBJECT_BOUNDS, thing)):
+        return False
+    s[SKIPPED_OBJECTS] += 1.0
+    return True
+
+
+@kernel
+def building_beyond(wf: Array, wi: Ints, s: Array, building: int) -> bool:
+    """Say the same of the outside of a house.
+
+    Its test sets ``bldg_check`` and, with the answer OK, unsets it, and does nothing else.
+
+    retail: CBuildingObj::find_building_collisions 0x006B5300, 09 3.7
+    """
+    if not allows(s, PLAN_OBJECTS) or not _clear_of(wf, s, listed_ball(wi, WORLD_BUILDING_BOUNDS, building)):
+        return False
+    s[SKIPPED_OBJECTS] += 1.0
+    return True
+
+
+@kernel
+def ground_beyond(wf: Array, wi: Ints, s: Array, cell: int, bx: float, by: float) -> bool:
+    """Say whether sphere 0 is clear above both triangles of a land cell, whichever it is tested against.
+
+    `bx`, `by`: origin of the cell's block. OBJECTINFO::validate_walkable then finds a distance of more
+    than EPS, to which the depth of water only adds, and answers OK before it writes anything, as retail
+    does where the mover is over neither triangle. The camera's distance is another one (VW-1), and a block
+    that is nothing but sea is a wall at any height (10, 7): neither is skipped; the caller has asked for the
+    wall.
+
+    retail: OBJECTINFO::validate_walkable 0x0050D010, VW-7...VW-10; CLandCell::find_env_collisions 0x00532F20
+    """
+    if not allows(s, PLAN_GROUND) or int(s[OI_STATE]) & IS_VIEWER:
+        return False
+    x, y, z = load(s, GLOBAL_SPHERE)
+    x, y, z = x - bx, y - by, z - s[GLOBAL_SPHERE + RADIUS]
+    poly = wi[ints_of(wi, cell) + LAND_TERRAIN]
+    far = slack(x, y, z)
+    if not plane_distance(wf, poly, x, y, z) > far:
+        return False
+    if not plane_distance(wf, poly + TERRAIN_POLYGON, x, y, z) > far:
+        return False
+    s[SKIPPED_GROUND] += 1.0
+    return True

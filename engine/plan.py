@@ -1,0 +1,68 @@
+"""Plans: what a query does not need is not done.
+
+A transition is a chain of tests, most of which find nothing: of objects that are far away, of cells behind
+portals that nobody is near, of a tree while the mover flies through the middle of a room. A *shortcut*
+leaves such tests out where a broad phase shows that they find nothing. None of them can change a bit of
+a result: the kernels that take them prove it, each at its place (`engine.kernels.plan`, `plan_portals`,
+`plan_flight`), from bounds that are derived in `engine.kernels.broad`. What may differ is counters of work.
+
+Batches, prepared queries and ticks use all shortcuts unless they are told otherwise. A row of state that
+records a trace uses none, since a trace tells of every call that retail makes; nor does `recording`.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from enum import IntFlag
+from typing import Final
+
+from engine import layout as at
+
+
+class Stage(IntFlag):
+    """What may be left out.
+
+    The order of the bits is that of the counters in ``skipped`` of results and bodies.
+    """
+
+    PORTALS = int(at.PLAN_PORTALS)
+    """Looking behind the portals of an environment cell when none is in reach: the cell list is the cell."""
+    OBJECTS = int(at.PLAN_OBJECTS)
+    """Testing objects, and the outsides of houses, that are out of reach."""
+    GROUND = int(at.PLAN_GROUND)
+    """Testing the ground of a land cell that is far below."""
+    FLIGHT = int(at.PLAN_FLIGHT)
+    """Inserting the mover in each sub-step of a move indoors of which nothing at all is in reach."""
+
+
+ALL_STAGES: Final = Stage.PORTALS | Stage.OBJECTS | Stage.GROUND | Stage.FLIGHT
+
+
+@dataclass(frozen=True, slots=True)
+class Plan:
+    """Which shortcuts may be taken.
+
+    Attributes
+    ----------
+    skip : Stage
+        What may be left out where it is certain to find nothing.
+
+    Examples
+    --------
+    >>> Plan.none().skip == Stage(0)
+    True
+    >>> Plan(skip=Stage.PORTALS | Stage.OBJECTS).skip & Stage.FLIGHT == 0
+    True
+    """
+
+    skip: Stage = ALL_STAGES
+
+    @classmethod
+    def none(cls) -> Plan:
+        """Return the plan that leaves nothing out: retail's own way, test by test."""
+        return cls(Stage(0))
+
+
+FULL_PLAN: Final = Plan()
+"""What is used where nothing else is said."""
+NO_PLAN: Final = Plan.none()
