@@ -8,7 +8,7 @@ from importlib import metadata
 from typing import TYPE_CHECKING, Final
 
 from conformance import exit_codes
-from conformance.commands import bench, bugs, coverage, errors, export, lint, trace, trace_log, verify
+from conformance.commands import bench, bugs, coverage, errors, export, lint, show, trace, trace_log, verify
 from conformance.commands.options import UsageError
 from conformance.console import tolerate_unprintable
 
@@ -26,6 +26,7 @@ _COMMANDS: Final[dict[str, ModuleType]] = {
     "trace": trace,
     "trace-log": trace_log,
     "bench": bench,
+    "show": show,
     "errors": errors,
 }
 _DESCRIPTION: Final = """\

@@ -9,7 +9,7 @@ from __future__ import annotations
 from contextlib import contextmanager
 from contextvars import ContextVar
 from functools import partial
-from typing import TYPE_CHECKING, Any, Final
+from typing import TYPE_CHECKING, Any, Final, Protocol
 
 from engine.errors import QueryError
 from engine.tracing_recorder import Recorder
@@ -18,7 +18,15 @@ from engine.tracing_writes import TOPICS, WriteTrace
 if TYPE_CHECKING:
     from collections.abc import Callable, Collection, Iterator
 
-_RECORDER: Final[ContextVar[Recorder | None]] = ContextVar("recorder", default=None)
+
+class Runner(Protocol):
+    """What runs kernels in place of compiled code."""
+
+    def run(self, kernel: Any, *arguments: Any) -> Any:
+        """Run a kernel, with the results that it has compiled."""
+
+
+_RUNNER: Final[ContextVar[Runner | None]] = ContextVar("runner", default=None)
 
 
 class UnknownTopicError(QueryError):
@@ -52,22 +60,29 @@ def recording(topics: Collection[str] = TOPICS) -> Iterator[WriteTrace]:
         if topic not in TOPICS:
             raise UnknownTopicError(topic)
     recorder = Recorder(topics)
-    token = _RECORDER.set(recorder)
-    try:
+    with run_by(recorder):
         yield recorder.trace
+
+
+@contextmanager
+def run_by(runner: Runner) -> Iterator[None]:
+    """Let a runner run the kernels of the queries inside the block, in this thread."""
+    token = _RUNNER.set(runner)
+    try:
+        yield
     finally:
-        _RECORDER.reset(token)
+        _RUNNER.reset(token)
 
 
 def is_recording() -> bool:
-    """Say whether this thread is inside `recording`."""
-    return _RECORDER.get() is not None
+    """Say whether this thread is inside `recording`, or `run_by`."""
+    return _RUNNER.get() is not None
 
 
 def runnable(kernel: Callable[..., Any]) -> Callable[..., Any]:
-    """Return the kernel itself or, inside `recording`, what runs it interpreted.
+    """Return the kernel itself or, inside `recording` or `run_by`, what runs it interpreted.
 
     It is asked for where Python calls a kernel that has a row of state, once a batch.
     """
-    recorder = _RECORDER.get()
-    return kernel if recorder is None else partial(recorder.run, kernel)
+    runner = _RUNNER.get()
+    return kernel if runner is None else partial(runner.run, kernel)

@@ -38,7 +38,7 @@ def configure(parser: argparse.ArgumentParser) -> None:
     )
     parser.add_argument(
         "--pose",
-        type=_pose,
+        type=pose_number,
         default=0,
         metavar="N",
         help="the case in its Nth random pose (default: 0, as written)",
@@ -57,7 +57,7 @@ def run(args: argparse.Namespace) -> int:
 
     topics = _topics(args.trace)
     candidate = _traceable(args)
-    query = _query(_find_case(args.case), args.pose)
+    query = query_of(find_case(args.case), args.pose)
     outcome, written = answer_traced(candidate, query, topics)
     console = make_console()
     console.print(f"{query.label} ({query.op}, {candidate.name})")
@@ -68,7 +68,8 @@ def run(args: argparse.Namespace) -> int:
     return code
 
 
-def _pose(text: str) -> int:
+def pose_number(text: str) -> int:
+    """Read the number of a pose."""
     number = int(text)
     if number < 0:
         raise argparse.ArgumentTypeError(f"{number} is not the number of a pose")
@@ -95,7 +96,8 @@ def _traceable(args: argparse.Namespace) -> Traceable:
     return candidate
 
 
-def _find_case(text: str) -> Case:
+def find_case(text: str) -> Case:
+    """Return the case ``CASE-ID`` or ``FILE::ID``; raises `UsageError` if there is none."""
     from conformance.loader import NoCasesError, load_paths
 
     file, _, case_id = text.rpartition(_SEPARATOR)
@@ -112,7 +114,8 @@ def _find_case(text: str) -> Case:
     return cases[case_id]
 
 
-def _query(case: Case, pose: int) -> Query:
+def query_of(case: Case, pose: int) -> Query:
+    """Return a case in one of its poses; raises `UsageError` if it has fewer."""
     if pose >= len(case.queries):
         raise UsageError(f"{case.id} has {len(case.queries) - 1} random poses, there is no pose {pose}")
     return case.queries[pose]

@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Any, Final
 import numpy as np
 
 from conformance.candidates.engine_ops.bodies import LiveBody
+from conformance.candidates.engine_ops.probing import note_work
 from conformance.candidates.engine_ops.running import TRACE_CAPACITY, demand_same, demand_same_answer
 from conformance.candidates.engine_ops.state_block import trace_text
 from conformance.candidates.engine_ops.values import floats, vector
@@ -92,6 +93,7 @@ class Recorder:
             check_status(self.body.record["status"].reshape(1))
             trace = trace_text(state, self.world.ints)
             if trace is not None:
+                note_work(state)
                 self.touched = self.world.touched(state)
                 demand_same_answer(short, self.body.record)
                 demand_same("touched", touched, self.touched)
@@ -105,6 +107,7 @@ class Recorder:
         state = world.new_row(plan=FULL_PLAN)
         times = np.array([[quantum, 1.0]])
         program.run(world.floats, world.ints, state, program.STEP, row.reshape(1, -1), times)
+        note_work(state)
         return row.view(BODY_DTYPE)[0], world.touched(state)
 
     def _always(self) -> Fields:

@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, Any, Final
 
 import numpy as np
 
+from conformance.candidates.engine_ops.probing import note_work
 from conformance.candidates.engine_ops.rows import numbers_of
 from conformance.candidates.engine_ops.state_block import trace_text
 from engine import layout as at
@@ -61,6 +62,7 @@ def run_noting(job: int, world: World, row: Any) -> tuple[Any, str, list[int]]:
         check_status(result["status"])
         trace = trace_text(state, world.ints)
         if trace is not None:
+            note_work(state)
             touched = world.touched(state)
             if short is not None:
                 demand_same_answer(short[0], result[0])
@@ -75,6 +77,7 @@ def _run_with_shortcuts(world: World, row: Any) -> tuple[Any, list[int]]:
     result = np.zeros(1, dtype=at.RESULT_DTYPE)
     query, answer = (numbers.reshape(1, -1) for numbers in (numbers_of(row), result.view(np.float64)))
     program.run(world.floats, world.ints, state, program.RESOLVE, query, answer)
+    note_work(state)
     check_status(result["status"])
     return result[0], world.touched(state)
 

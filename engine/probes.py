@@ -1,0 +1,70 @@
+"""Probes: how much work queries did, and how much shortcuts saved.
+
+Every result and every body counts its own work (``nodes_visited``, ..., ``skipped``); here it is added up.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, fields
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from engine import layout as at
+from engine.plan import Stage
+
+if TYPE_CHECKING:
+    from engine.kernels.types import Array
+
+
+@dataclass(frozen=True, slots=True)
+class Work:
+    """What one query, or many together, did.
+
+    Attributes
+    ----------
+    queries : int
+        Transitions, or single calls.
+    nodes, polygons : int
+        Nodes of trees visited, and polygons tested; those of the broad phase included.
+    objects, cells : int
+        Objects tested, and cells put on the cell list. Bodies do not tell: 0.
+    portals, things, grounds, flights : int
+        Shortcuts taken (`engine.plan.Stage`): cell lists of one, objects and houses passed over, grounds
+        passed over, sub-steps of free flights.
+    """
+
+    queries: int = 0
+    nodes: int = 0
+    polygons: int = 0
+    objects: int = 0
+    cells: int = 0
+    portals: int = 0
+    things: int = 0
+    grounds: int = 0
+    flights: int = 0
+
+    def __add__(self, other: Work) -> Work:
+        """Return what both did together."""
+        return Work(*(getattr(self, f.name) + getattr(other, f.name) for f in fields(Work)))
+
+
+def work_of(records: Any) -> Work:
+    """Add up the work of records.
+
+    Parameters
+    ----------
+    records : records of `engine.layout.RESULT_DTYPE` or `engine.body_layout.BODY_DTYPE`
+        One, or an array of them; of bodies, the work of their last ticks.
+    """
+    rows = np.atleast_1d(records)
+    names = ("nodes_visited", "polygons_tested", "objects_tested", "cells_listed")
+    counts = [int(rows[name].sum()) if name in (rows.dtype.names or ()) else 0 for name in names]
+    return Work(len(rows), *counts, *(int(n) for n in rows["skipped"].sum(axis=0)))
+
+
+def work_of_row(row: Array) -> Work:
+    """Return the work of the query that a row of state has run last."""
+    counters = (at.NODES_VISITED, at.POLYGONS_TESTED, at.OBJECTS_TESTED, at.CELLS_LISTED)
+    skipped = row[at.SKIPPED : at.SKIPPED + len(Stage)]
+    return Work(1, *(int(row[k]) for k in counters), *(int(n) for n in skipped))

@@ -1,0 +1,86 @@
+"""Shortcuts change no bit: the same answers with all of them, with each alone, and with none.
+
+``pytest tests/engine/test_plan_equality.py --hypothesis-profile soak`` asks 200 times as many queries.
+"""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+import pytest
+from hypothesis import settings
+from random_moves import random_moves, world_at
+
+from conformance.strategies.worlds.sites import SITES
+from engine import Body, Plan, Pose, Stage, body_rows, resolve_many, step_many
+
+if TYPE_CHECKING:
+    from engine.query import Rows
+
+WORK = {"nodes_visited", "polygons_tested", "cells_listed", "objects_tested", "skipped"}
+"""Fields that count work, and so differ."""
+QUERIES = 1_000
+"""In each site, with an ordinary profile; together with its stages and sites more than 50,000 a run."""
+ORDINARY = 100
+"""Examples of an ordinary profile."""
+
+
+def answers(records: Any) -> list[bytes]:
+    """Return all fields that are no counters of work, each as its bytes."""
+    assert set(records.dtype.names) > WORK - {"cells_listed", "objects_tested"}
+    return [np.ascontiguousarray(records[name]).tobytes() for name in records.dtype.names if name not in WORK]
+
+
+def queries_of(name: str) -> Rows:
+    """Return the loaded profile's number of moves in a site; the seed is the site's own."""
+    examples = settings.get_profile(settings.get_current_profile_name()).max_examples
+    rng = np.random.default_rng(sorted(SITES).index(name))
+    return random_moves(name, rng, QUERIES * examples // ORDINARY)
+
+
+def test_there_are_sites() -> None:
+    """Nothing is tested without any."""
+    assert len(SITES) >= 8
+
+
+@pytest.mark.parametrize("name", sorted(SITES))
+def test_moves_are_answered_alike(name: str) -> None:
+    """In every site, with every set of shortcuts, on every bit of every output; some are taken."""
+    world, rows = world_at(name), queries_of(name)
+    without = answers(resolve_many(world, rows, plan=Plan.none()))
+    for skip in (*Stage, Plan().skip):
+        short = resolve_many(world, rows, plan=Plan(skip=skip))
+        assert answers(short) == without
+        counts = zip(Stage, short["skipped"].sum(axis=0), strict=True)
+        assert all(stage in skip for stage, count in counts if count)
+
+
+def test_every_shortcut_is_taken_somewhere() -> None:
+    """The property above is about something: each stage is skipped more than a hundred times."""
+    skipped = np.zeros(len(Stage))
+    for name in sorted(SITES):
+        rows = random_moves(name, np.random.default_rng(7), 500)
+        skipped += resolve_many(world_at(name), rows)["skipped"].sum(axis=0)
+    assert (skipped > 100).all(), dict(zip(Stage, skipped, strict=True))
+
+
+@pytest.mark.parametrize("name", sorted(SITES))
+def test_bodies_tick_alike(name: str) -> None:
+    """A body that flies, falls and lands is the same after each of many ticks."""
+    world = world_at(name)
+    moves = random_moves(name, np.random.default_rng(11), 40)
+    bodies = [
+        Body(
+            Pose(int(move["start"][0]), move["start"][-3:].tolist()),
+            move["spheres"].tolist(),
+            velocity=(10.0 * (move["end"] - move["start"])[-3:]).tolist(),
+        )
+        for move in moves
+    ]
+    short, full = body_rows(world, bodies), body_rows(world, bodies)
+    for _ in range(20):
+        step_many(world, short, 0.05, 1)
+        step_many(world, full, 0.05, 1, plan=Plan.none())
+        assert answers(short) == answers(full)
+    assert not full["skipped"].any()

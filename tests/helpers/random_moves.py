@@ -1,0 +1,140 @@
+"""Thousands of random moves in a world of the suite, made at once: in rooms, over land, at things."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+import numpy.typing as npt
+
+from conformance.candidates.engine_ops.worlds import engine_world
+from conformance.strategies.worlds.sites import site
+from engine import layout as at
+from engine.constants import (
+    CONTACT,
+    EDGE_SLIDE,
+    FREE_ROTATE,
+    IS_VIEWER,
+    ON_WALKABLE,
+    PATH_CLIPPED,
+    PERFECT_CLIP,
+)
+
+if TYPE_CHECKING:
+    from numpy.random import Generator
+
+    from engine.query import Rows
+    from engine.world import World
+
+Floats = npt.NDArray[np.float64]
+
+STATES = np.array(
+    [
+        EDGE_SLIDE,
+        EDGE_SLIDE,
+        0,
+        CONTACT | ON_WALKABLE | EDGE_SLIDE,
+        CONTACT | EDGE_SLIDE,
+        PATH_CLIPPED,
+        PATH_CLIPPED | PERFECT_CLIP,
+        IS_VIEWER | FREE_ROTATE,
+    ],
+    dtype=np.float64,
+)
+SPHERES = np.array([(0.0, 0.0, 0.475, 0.48), (0.0, 0.0, 1.35, 0.48)], dtype=np.float32)
+LONGEST = 1.5
+"""Metres."""
+
+
+def world_at(name: str) -> World:
+    """Return the engine's world of a site of the random worlds."""
+    place = site(name)
+    return engine_world(place.world, place.geometries)
+
+
+def random_moves(name: str, rng: Generator, count: int) -> Rows:
+    """Return rows of moves: a third each from a room, over the land, and at a thing, where there are such."""
+    place, world = site(name), world_at(name)
+    starts = [_in_cell(cell, world, rng) for cell in place.world["cells"]]
+    starts += [_over_land(block, rng) for block in place.world["landblocks"]]
+    starts += [_at_thing(thing, rng) for thing in place.world["objects"]]
+    rows = np.zeros(count, dtype=at.QUERY_DTYPE)
+    _give_mover(rows, rng)
+    for index, draw in enumerate(rng.integers(len(starts), size=count)):
+        cell, origin = starts[draw]()
+        rows["start"][index, 0] = rows["end"][index, 0] = cell
+        rows["start"][index, -3:] = origin
+        rows["begin_cell"][index] = world.cell_index(int(cell))
+    rows["start"][:, 1:5], rows["end"][:, 1:5] = _rotations(rng, count), _rotations(rng, count)
+    ways = rng.normal(size=(count, 3)) * (1.0, 1.0, 0.4)
+    ways *= rng.uniform(0.0, LONGEST, size=(count, 1)) / np.linalg.norm(ways, axis=1, keepdims=True)
+    rows["end"][:, -3:] = _single(rows["start"][:, -3:] + ways)
+    inside: Rows = rows[rows["begin_cell"] != at.NO_CELL]
+    return inside
+
+
+def _give_mover(rows: Rows, rng: Generator) -> None:
+    count = len(rows)
+    rows["num_sphere"] = rng.integers(1, 3, size=count)
+    rows["spheres"] = SPHERES
+    rows["scale"] = _single(rng.choice([0.25, 0.5, 1.0, 1.0, 1.7], size=count))
+    rows["state"] = rng.choice(STATES, size=count)
+    rows["step_up_height"], rows["step_down_height"] = np.float32(0.6), 1.5
+    rows["ethereal"] = rng.random(count) < 0.1
+    rows["may_step_down"] = rng.random(count) < 0.8
+    rows["gravity"] = rng.random(count) < 0.8
+    rows["has_start"] = rng.random(count) < 0.95
+    rows["placement_allows_sliding"] = 1
+    falling = rng.random(count) < 0.1
+    rows["frames_stationary_fall"] = np.where(falling, rng.integers(4, size=count), 0)
+    slides = rng.random(count) < 0.1
+    rows["sliding_normal_valid"] = slides
+    rows["sliding_normal"][slides, 0] = 1.0
+
+
+def _in_cell(cell: Any, world: World, rng: Generator) -> Any:
+    shape = world.shapes[0]
+    for candidate in world.shapes:
+        shape = candidate if candidate.name == cell["geometry"] else shape
+    low, high = shape.bounds[:3], shape.bounds[3:]
+    w, x, y, z = cell["pose"]["rotation"]
+    axis = np.array([x, y, z])
+
+    def draw() -> tuple[float, Floats]:
+        local = rng.uniform(low, high)
+        turned = local + 2.0 * np.cross(axis, np.cross(axis, local) + w * local)
+        return float(cell["id"]), _single(turned + np.array(cell["pose"]["origin"]))
+
+    return draw
+
+
+def _over_land(block: Any, rng: Generator) -> Any:
+    heights = np.array(block["heights"], dtype=np.float64).reshape(9, 9)
+
+    def draw() -> tuple[float, Floats]:
+        x, y = rng.uniform(0.0, 192.0, size=2)
+        i, j = int(x // 24.0), int(y // 24.0)
+        z = heights[i : i + 2, j : j + 2].max() + rng.uniform(-1.0, 3.0)
+        return float((block["block"] << 16) + 8 * i + j + 1), _single(np.array([x, y, z]))
+
+    return draw
+
+
+def _at_thing(thing: Any, rng: Generator) -> Any:
+    pose = thing["pose"]
+
+    def draw() -> tuple[float, Floats]:
+        return float(pose["cell"]), _single(np.array(pose["origin"]) + rng.uniform(-3.0, 3.0, size=3))
+
+    return draw
+
+
+def _rotations(rng: Generator, count: int) -> Floats:
+    """Return quaternions: half of them yaws, the others anything."""
+    quaternions = rng.normal(size=(count, 4))
+    quaternions[: count // 2, 1:3] = 0.0
+    return _single(quaternions / np.linalg.norm(quaternions, axis=1, keepdims=True))
+
+
+def _single(values: Any) -> Floats:
+    return np.asarray(values, dtype=np.float32).astype(np.float64)
