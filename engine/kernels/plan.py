@@ -24,8 +24,11 @@ from engine.layout import (
     CHECK_POS,
     GLOBAL_SPHERE,
     LAND_TERRAIN,
+    LOCAL_SPHERE,
+    MATRIX,
     NUM_SPHERE,
     OI_STATE,
+    ORIGIN,
     PLAN,
     PLAN_GROUND,
     PLAN_OBJECTS,
@@ -50,6 +53,26 @@ def allows(s: Array, stage: int) -> bool:
     return int(s[PLAN]) & stage != 0
 
 
+@inlined
+def _distance(x: float, y: float, z: float) -> float:
+    return math.sqrt(x * x + y * y + z * z)
+
+
+@inlined
+def _sphere_reach(s: Array, number: int, x: float, y: float, z: float) -> float:
+    """Return how far a centre of the mover's is from a point, wherever it is taken to be.
+
+    In a sub-step the check position has turned already, but the global spheres have not (FT-9, FT-11): trees
+    are tested with the one, shapes with the other.
+    """
+    at, m, o = GLOBAL_SPHERE + SPHERE_SIZE * number, CHECK_POS + MATRIX, CHECK_POS + ORIGIN
+    lx, ly, lz = load(s, LOCAL_SPHERE + SPHERE_SIZE * number)
+    tx = s[m] * lx + s[m + 3] * ly + s[m + 6] * lz + s[o] - x
+    ty = s[m + 1] * lx + s[m + 4] * ly + s[m + 7] * lz + s[o + 1] - y
+    tz = s[m + 2] * lx + s[m + 5] * ly + s[m + 8] * lz + s[o + 2] - z
+    return max(_distance(s[at] - x, s[at + 1] - y, s[at + 2] - z), _distance(tx, ty, tz))
+
+
 @kernel
 def _clear_of(wf: Array, s: Array, ball: int) -> bool:
     """Say whether the mover at the check position is clear of a bounding ball.
@@ -59,13 +82,18 @@ def _clear_of(wf: Array, s: Array, ball: int) -> bool:
     """
     x, y, z = load(s, GLOBAL_SPHERE)
     r = s[GLOBAL_SPHERE + RADIUS]
-    if s[NUM_SPHERE] > 1.0:
-        hx = 0.5 * (s[_SECOND_SPHERE] - x)
-        hy = 0.5 * (s[_SECOND_SPHERE + 1] - y)
-        hz = 0.5 * (s[_SECOND_SPHERE + 2] - z)
-        x, y, z = x + hx, y + hy, z + hz
-        r = max(r, s[_SECOND_SPHERE + RADIUS]) + math.sqrt(hx * hx + hy * hy + hz * hz)
-    return ball_beyond(wf, ball, s[CHECK_POS], x, y, z, r + slack(x, y, z))
+    two = s[NUM_SPHERE] > 1.0
+    if two:
+        x, y, z = (
+            0.5 * (x + s[_SECOND_SPHERE]),
+            0.5 * (y + s[_SECOND_SPHERE + 1]),
+            0.5 * (z + s[_SECOND_SPHERE + 2]),
+        )
+        r = max(r, s[_SECOND_SPHERE + RADIUS])
+    reach = _sphere_reach(s, 0, x, y, z)
+    if two:
+        reach = max(reach, _sphere_reach(s, 1, x, y, z))
+    return ball_beyond(wf, ball, s[CHECK_POS], x, y, z, reach + r + slack(x, y, z))
 
 
 @kernel

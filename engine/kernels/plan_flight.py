@@ -169,7 +169,8 @@ def fly(wf: Array, wi: Ints, s: Array) -> bool:
     objects answer OK, ``obstruction_ethereal`` stays 0, nothing is noted as struck (no landing, no
     polygon overlapped from behind), and the cell list is the cell alone. As long as that contains sphere 0
     (asked here, exactly), the mover stays in it (OC-3...OC-5 change neither cell nor position), and the
-    insert answers OK. Otherwise nothing was done that the insert does not do again.
+    insert answers OK. Otherwise nothing was done that the insert does not do again, and the flight is over:
+    what is in reach of the mover in another cell, or off its way, was never asked.
 
     retail: CTransition::transitional_insert 0x0050B6F0, TI-1...TI-15
     """

@@ -147,7 +147,10 @@ def _find_transitional_position(wf: Array, wi: Ints, s: Array) -> bool:
         if not free:
             t = f32((i + 1.0) / steps)
             frame_interpolate_rotation(s, CHECK_POS, s, BEGIN_POS, END_POS, t)
-        ts = _sub_step(wf, wi, s, x, y, z, flies)
+        _begin_sub_step(s, x, y, z)
+        flies = flies and fly(wf, wi, s)
+        ts = OK if flies else transitional_insert(wf, wi, s, TRANSITION_ATTEMPTS)
+        ts = validate_transition(wf, wi, s, ts)
         clipped = int(s[OI_STATE]) & PATH_CLIPPED != 0 and s[COLLISION_NORMAL_VALID] != 0.0
         if s[FRAMES_STATIONARY_FALL] != 0.0 or clipped:
             break
@@ -170,14 +173,12 @@ def _last_viewer_step(
     return _scaled(k, ox, oy, oz)
 
 
-@kernel
-def _sub_step(wf: Array, wi: Ints, s: Array, x: float, y: float, z: float, flies: bool) -> int:
-    """Move by one offset, as far as nothing is in the way; `flies`: it is known that nothing is.
+@inlined
+def _begin_sub_step(s: Array, x: float, y: float, z: float) -> None:
+    """Move by one offset, to see what is in the way.
 
-    retail: FT-11, FT-12
+    retail: FT-11
     """
     s[SLIDING_VALID] = 0.0
     forget_contact(s)
     add_offset_to_check_pos(s, x, y, z)
-    ts = OK if flies and fly(wf, wi, s) else transitional_insert(wf, wi, s, TRANSITION_ATTEMPTS)
-    return validate_transition(wf, wi, s, ts)

@@ -13,10 +13,11 @@ from hypothesis import settings
 from random_moves import random_moves, world_at
 
 from conformance.strategies.worlds.sites import SITES
-from engine import Body, Plan, Pose, Stage, body_rows, resolve_many, step_many
+from engine import Body, Plan, Pose, Stage, UndeterminedError, body_rows, resolve_many, step_many
 
 if TYPE_CHECKING:
     from engine.query import Rows
+    from engine.world import World
 
 WORK = {"nodes_visited", "polygons_tested", "cells_listed", "objects_tested", "skipped"}
 """Fields that count work, and so differ."""
@@ -30,6 +31,15 @@ def answers(records: Any) -> list[bytes]:
     """Return all fields that are no counters of work, each as its bytes."""
     assert set(records.dtype.names) > WORK - {"cells_listed", "objects_tested"}
     return [np.ascontiguousarray(records[name]).tobytes() for name in records.dtype.names if name not in WORK]
+
+
+def resolved(world: World, rows: Rows, plan: Plan) -> Rows:
+    """Return the answers; also where retail's is not known to some, whose records are compared as they are."""
+    try:
+        return resolve_many(world, rows, plan=plan)
+    except UndeterminedError as error:
+        assert error.results is not None
+        return error.results
 
 
 def queries_of(name: str) -> Rows:
@@ -48,9 +58,9 @@ def test_there_are_sites() -> None:
 def test_moves_are_answered_alike(name: str) -> None:
     """In every site, with every set of shortcuts, on every bit of every output; some are taken."""
     world, rows = world_at(name), queries_of(name)
-    without = answers(resolve_many(world, rows, plan=Plan.none()))
+    without = answers(resolved(world, rows, Plan.none()))
     for skip in (*Stage, Plan().skip):
-        short = resolve_many(world, rows, plan=Plan(skip=skip))
+        short = resolved(world, rows, Plan(skip=skip))
         assert answers(short) == without
         counts = zip(Stage, short["skipped"].sum(axis=0), strict=True)
         assert all(stage in skip for stage, count in counts if count)
@@ -61,7 +71,7 @@ def test_every_shortcut_is_taken_somewhere() -> None:
     skipped = np.zeros(len(Stage))
     for name in sorted(SITES):
         rows = random_moves(name, np.random.default_rng(7), 500)
-        skipped += resolve_many(world_at(name), rows)["skipped"].sum(axis=0)
+        skipped += resolved(world_at(name), rows, Plan())["skipped"].sum(axis=0)
     assert (skipped > 100).all(), dict(zip(Stage, skipped, strict=True))
 
 
