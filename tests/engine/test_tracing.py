@@ -27,6 +27,7 @@ from engine.constants import FLOOR_Z
 from engine.kernels.program import RESOLVE
 from engine.kernels.program import run as compiled
 from engine.layout import RESULT_SIZE
+from engine.plan import NO_PLAN
 from engine.query import move_rows
 from engine.tracing import UnknownTopicError, recording, runnable
 from engine.tracing_writes import (
@@ -166,12 +167,12 @@ def test_the_ticks_of_bodies_are_recorded() -> None:
 
 @pytest.mark.parametrize("tick", [step_many, update_many])
 def test_traced_ticks_end_in_the_same_bits(tick: Any) -> None:
-    """Several ticks of a body that falls, lands and slides along a wall."""
+    """Several ticks of a body that falls, lands and slides along a wall; a trace takes no shortcuts."""
     world = world_of(floor_and_wall())
     bodies = [walker(z=0.6, velocity=(2.0, 0.3, -1.0), acceleration=(0, 0, GRAVITY))]
     plain, traced = body_rows(world, bodies), body_rows(world, bodies)
     arguments = (1 / 30, 12) if tick is step_many else (0.9,)
-    tick(world, plain, *arguments)
+    tick(world, plain, *arguments, plan=NO_PLAN)
     with recording() as trace:
         tick(world, traced, *arguments)
     assert trace.entries
@@ -179,7 +180,7 @@ def test_traced_ticks_end_in_the_same_bits(tick: Any) -> None:
 
 
 def test_traced_queries_end_in_the_same_bits() -> None:
-    """Moves from everywhere to everywhere about a wall, and a placement in it."""
+    """Moves from everywhere to everywhere about a wall, and a placement in it; a trace takes no shortcuts."""
     world = world_of(floor_and_wall())
     rng = np.random.default_rng(7)
     moves = [
@@ -190,7 +191,7 @@ def test_traced_queries_end_in_the_same_bits() -> None:
     ]
     moves.append(Move(mover(), at(0.9, 0.0, 0.2), CELL))
     rows = move_rows(world, moves)
-    plain = resolve_many(world, rows)
+    plain = resolve_many(world, rows, plan=NO_PLAN)
     with recording():
         traced = resolve_many(world, rows)
     assert plain.tobytes() == traced.tobytes()
