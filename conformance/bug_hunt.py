@@ -121,6 +121,14 @@ class Record:
         return tuple(name for name, kill in caught.items() if kill is None)
 
 
+class HuntBrokenOffError(KeyboardInterrupt):
+    """Ctrl-C during a hunt; `records` say what was found so far."""
+
+    def __init__(self, records: list[Record]) -> None:
+        super().__init__()
+        self.records = records
+
+
 def hunt(
     bugs: Iterable[KnownBug], cases: Sequence[Case], *, draws: int = DRAWS, progress: Progress
 ) -> list[Record]:
@@ -136,16 +144,24 @@ def hunt(
         Random queries of each family; 0 asks the cases only.
     progress : Progress
         Where to say how far it is.
+
+    Raises
+    ------
+    HuntBrokenOffError
+        On Ctrl-C, with what was found so far.
     """
     hunters = [Hunter(bug) for bug in bugs]
-    for number, case in enumerate(cases, start=1):
-        progress.say(f"pinned cases: {number} of {len(cases)}")
-        for hunter in hunters:
-            hunter.ask_case(case)
-    if draws:
-        for family in FAMILIES:
+    records = [hunter.record for hunter in hunters]
+    try:
+        for number, case in enumerate(cases, start=1):
+            progress.say(f"pinned cases: {number} of {len(cases)}")
+            for hunter in hunters:
+                hunter.ask_case(case)
+        for family in FAMILIES if draws else ():
             _hunt_at_random(hunters, family, draws, progress)
-    return [hunter.record for hunter in hunters]
+    except KeyboardInterrupt:
+        raise HuntBrokenOffError(records) from None
+    return records
 
 
 def _hunt_at_random(hunters: Sequence[Hunter], family: str, draws: int, progress: Progress) -> None:

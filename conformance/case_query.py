@@ -8,11 +8,18 @@ from typing import TYPE_CHECKING, Any, Final
 from conformance.case_references import check_references
 from conformance.case_ticks import body_block, held_inputs, recorded_moves
 from conformance.case_world_inputs import world_inputs, world_scene
+from conformance.effort import check_effort
 from conformance.fields import FieldError, UnknownOperationError
 from conformance.query import Query
 from conformance.scenes.model import Pose
 from conformance.schema.frames import PlaceModel, PoseModel
 from conformance.schema.movement_queries import CallQuery, TransitionQuery
+from conformance.schema.own_queries import (
+    CountStepsQuery,
+    EntryQuery,
+    PlaceBodyQuery,
+    TransitionalPositionQuery,
+)
 from conformance.schema.query import RawQuery
 from conformance.schema.values import INSERT_TYPES, OBJECT_STATES, Strictly
 from conformance.schema.walk_queries import BodyWalkQuery, WalkQuery
@@ -58,19 +65,40 @@ def make_query(case: CaseModel, maker: SceneMaker) -> Query | None:
     ):  # whose keys are made with the world
         inputs |= _block(case.query, maker, ("query",))
         inputs.pop("op")
+    if isinstance(case.query, PlaceBodyQuery):
+        inputs["body"] = body_block(case.query.body, inputs.pop("start"))
+        inputs.setdefault("cell", None)
     if case.mover is not None:
         mover = _block(case.mover, maker, ("mover",))
+        if "weenie" in mover:
+            mover["weenie"] = dict.fromkeys(mover["weenie"], 1)
         inputs["mover"] = mover | {"ethereal": OBJECT_STATES["ethereal"] if mover["ethereal"] else 0}
     if isinstance(case.query, CallQuery):
         inputs["path"]["insert_type"] = INSERT_TYPES[case.query.path.insert_type]
         if at := inputs.pop("at", None):
             inputs["from"] = inputs["to"] = at
-    if isinstance(case.query, TransitionQuery | ObjectTransitionQuery):
+    if isinstance(case.query, TransitionalPositionQuery):
+        inputs["insert_type"] = INSERT_TYPES[case.query.insert_type]
+    if isinstance(case.query, EntryQuery):
+        inputs.setdefault("mover", None)  # nobody
+    if isinstance(case.query, TransitionQuery | ObjectTransitionQuery | CountStepsQuery):
         inputs.setdefault("from", None)  # FORMAT.md: null asks for a placement
     maker.faults += check_references(case, maker.geometries)
     if maker.faults:
         return None
+    try:
+        check_effort(inputs)
+    except FieldError as error:
+        maker.faults.append(_too_much(error))
+        return None
     return Query(asked_op(case), inputs, maker.geometries, case.id)
+
+
+def _too_much(error: FieldError) -> Fault:
+    """Place a mistake in the case's own words, in which segments stand for ticks."""
+    first, *_ = parse_path(error.path)
+    path: DocPath = ("mover", "spheres") if first == "mover" else ("query", first)
+    return Fault(path, error.found, error.expected)
 
 
 def _scene_inputs(case: CaseModel, maker: SceneMaker) -> dict[str, Any]:

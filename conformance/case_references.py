@@ -4,9 +4,15 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from conformance.scenes.world_model import is_interior
+from conformance.scenes.world_model import SIDE_CELLS, is_interior
 from conformance.schema.geometry_queries import BspAdjustToPlaneQuery, PolygonQuery
 from conformance.schema.movement_queries import TransitionQuery
+from conformance.schema.own_queries import (
+    EntryQuery,
+    PlaceBodyQuery,
+    TransitionalPositionQuery,
+    VisibleChildQuery,
+)
 from conformance.schema.walk_queries import BodyWalkQuery, WalkQuery
 from conformance.schema.world_queries import (
     BuildingTransitQuery,
@@ -33,6 +39,8 @@ _OF_A_CELL = (
     ValidateWalkableQuery,
     TransitCellsQuery,
     BuildingTransitQuery,
+    EntryQuery,
+    VisibleChildQuery,
 )
 
 
@@ -55,7 +63,8 @@ def is_loaded(cell: int, scene: SceneModel) -> bool:
     """Tell whether a scene has a cell, interior or of its land."""
     if is_interior(cell):
         return any(one.id == cell for one in scene.cells or ())
-    blocks = [block for terrain in scene.terrain for block in terrain.blocks]
+    detailed = (terrain for terrain in scene.terrain if terrain.side_cell_count == SIDE_CELLS)
+    blocks = [block for terrain in detailed for block in terrain.blocks]
     return (cell >> 16 in blocks and cell & 0xFFFF in LAND_CELLS) or any(
         one.id == cell for one in scene.cells or ()
     )
@@ -71,6 +80,10 @@ def _named_cells(query: object, scene: SceneModel) -> Iterator[tuple[DocPath, in
             yield ("query", key, "cell"), begin.cell
         case WalkQuery() | BodyWalkQuery():
             yield ("query", "start", "cell"), query.start.cell
+        case TransitionalPositionQuery():
+            yield ("query", "from", "cell"), query.from_.cell
+        case PlaceBodyQuery(cell=int() as cell):
+            yield ("query", "cell"), cell
         case _ if isinstance(query, _OF_A_CELL):
             yield ("query", "cell"), query.cell
 

@@ -16,7 +16,8 @@ if TYPE_CHECKING:
     from conformance.case_scene import SceneMaker
     from conformance.query import Outcome
     from conformance.scenes.model import Geometry, SphereData
-    from conformance.scenes.world_model import World, WorldObject
+    from conformance.scenes.object_model import WorldObject
+    from conformance.scenes.world_model import World
     from conformance.schema.scene import SceneModel
     from conformance.source import DocPath
 

@@ -115,6 +115,10 @@ def body_block(body: BodyModel, position: dict[str, Any]) -> dict[str, Any]:
     for key in ("velocity", "acceleration", "friction", "elasticity"):
         if (value := getattr(body, key)) is not None:
             block[key] = list(value) if isinstance(value, tuple) else value
+    if body.id is not None:
+        block["id"] = body.id
+    if body.weenie is not None:
+        block["weenie"] = dict.fromkeys(body.weenie, 1)
     if body.contact is not None:
         block |= {"contact_plane": list(body.contact.plane), "contact_plane_cell": body.contact.cell}
     return block

@@ -6,9 +6,10 @@ from dataclasses import replace
 from typing import TYPE_CHECKING
 
 from conformance.case_portals import PortalMaker
+from conformance.scenes.object_model import Part, WorldObject
 from conformance.scenes.terrain import Area, flat_heights, formula_heights, table_heights, terrain_words
 from conformance.scenes.validate_world import arrangement_errors
-from conformance.scenes.world_model import Building, InteriorCell, LandBlock, Part, World, WorldObject
+from conformance.scenes.world_model import Building, InteriorCell, LandBlock, Restriction, World
 from conformance.source import Fault, parse_path
 
 if TYPE_CHECKING:
@@ -48,7 +49,14 @@ class WorldMaker:
         cells = tuple(self._cells(portals))
         cells = tuple(replace(cell, portals=portals.portals(cell.id)) for cell in cells)
         buildings = tuple(self._buildings(portals))
-        world = World(self._maker.case_id, blocks, cells, buildings, tuple(self._objects()))
+        world = World(
+            self._maker.case_id,
+            blocks,
+            cells,
+            buildings,
+            tuple(self._objects()),
+            restrictions=self._restrictions(),
+        )
         faults = [self._fault(error, portals) for error in arrangement_errors(world)]
         # One formula may be wrong in 81 places: the first tells enough.
         first = {fault.path: fault for fault in reversed(faults)}
@@ -63,7 +71,7 @@ class WorldMaker:
             here = (*path, "parts", index)
             geometry = None if part.geometry is None else maker.geometry(part.geometry, (*here, "geometry"))
             pose = None if part.pose is None else maker.pose(part.pose, part.pose.cell, (*here, "pose"))
-            parts.append(Part(geometry, pose, part.scale))
+            parts.append(Part(geometry, pose, part.scale, part.physics, part.drawing_sphere, flat=part.flat))
         return WorldObject(
             id=model.id,
             pose=maker.pose(model.pose, model.pose.cell, (*path, "pose")),
@@ -75,6 +83,7 @@ class WorldMaker:
             spheres=tuple(model.spheres),
             parent=bool(model.parent),
             part_array=model.part_array,
+            attached=tuple(model.attached),
         )
 
     def _landblocks(self) -> Iterator[LandBlock]:
@@ -88,7 +97,7 @@ class WorldMaker:
                     break
                 self._places["landblocks", count] = path
                 count += 1
-                yield LandBlock(block, heights, terrain_words(areas))
+                yield LandBlock(block, heights, terrain_words(areas), terrain.side_cell_count)
 
     def _heights(self, terrain: TerrainModel, block: int, path: DocPath) -> tuple[float, ...] | None:
         maker, frame = self._maker, self._scene.landblock
@@ -108,7 +117,9 @@ class WorldMaker:
             if geometry is None:
                 continue
             self._places["cells", len(portals.cells)] = path
-            cell = InteriorCell(model.id, pose, geometry, stab=_stab(model, ids))
+            cell = InteriorCell(
+                model.id, pose, geometry, stab=_stab(model, ids), portal_array=model.portal_array
+            )
             portals.add(cell)
             yield cell
 
@@ -128,12 +139,13 @@ class WorldMaker:
         for index, model in enumerate(self._scene.buildings):
             path: DocPath = ("scene", "buildings", index)
             pose = self._maker.pose(model.pose, model.pose.cell, (*path, "pose"))
-            geometry = self._maker.geometry(model.geometry, (*path, "geometry"))
+            shell = model.geometry
+            geometry = None if shell is None else self._maker.geometry(shell, (*path, "geometry"))
             doors = self._doors(model, portals, path)
-            if geometry is not None:
+            if shell is None or geometry is not None:
                 self._places["buildings", count] = path
                 count += 1
-                yield Building(pose, geometry, doors)
+                yield Building(pose, geometry, doors, model.landblock)
 
     def _doors(
         self, model: BuildingModel, portals: PortalMaker, path: DocPath
@@ -156,9 +168,19 @@ class WorldMaker:
             self._places["objects", index] = ("scene", "objects", index)
             yield self.object(model, ("scene", "objects", index))
 
+    def _restrictions(self) -> dict[int, Restriction]:
+        made: dict[int, Restriction] = {}
+        for index, model in enumerate(self._scene.restrictions):
+            for number, cell in enumerate(model.cells):
+                self._places["restrictions", cell] = ("scene", "restrictions", index, "cells", number)
+                made[cell] = Restriction(tuple(model.admits), model.known)
+        return made
+
     def _fault(self, error: SceneError, portals: PortalMaker) -> Fault:
         """Return a mistake of the world's record at the place in the file that it comes from."""
         what, index, *below = parse_path(error.path)
+        if below == ["block"] and what == "buildings":
+            below = ["landblock"]
         place = self._places.get((what, int(index)), ("scene",))
         if what == "landblocks":
             path = _terrain_place(self._scene, place, below)

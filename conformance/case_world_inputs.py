@@ -7,8 +7,16 @@ from typing import TYPE_CHECKING, Any, Final
 
 from conformance.case_registration import shadow_lists
 from conformance.case_world import WorldMaker
+from conformance.scenes.terrain import table_heights
 from conformance.scenes.validate_objects import object_errors, single_object_errors
 from conformance.scenes.world_model import World
+from conformance.schema.own_queries import (
+    EntryQuery,
+    PlaceBodyQuery,
+    RegistrationQuery,
+    TransitionalPositionQuery,
+    VisibleChildQuery,
+)
 from conformance.schema.world_queries import (
     BuildingTransitQuery,
     CellListQuery,
@@ -37,11 +45,16 @@ _ALWAYS: Final = (
     CellListQuery,
     CellPointQuery,
     CrossCellsQuery,
+    EntryQuery,
     LandCollisionsQuery,
     OutsideCellsQuery,
+    PlaceBodyQuery,
+    RegistrationQuery,
     TerrainBlockQuery,
     TransitCellsQuery,
+    TransitionalPositionQuery,
     ValidateWalkableQuery,
+    VisibleChildQuery,
 )
 """Queries whose scene is a world, whatever keys it has."""
 
@@ -62,6 +75,8 @@ def world_inputs(query: AnyQuery, scene: SceneModel, maker: SceneMaker) -> dict[
         return _terrain_block(query, world, maker)
     if isinstance(query, CrossCellsQuery):
         return {"world": world.to_record(), **_crossing(query, world_maker, maker)}
+    if isinstance(query, RegistrationQuery):
+        return {"world": world.to_record()}
     if maker.faults:
         return {}
     shadow = shadow_lists(world, scene, maker)
@@ -101,10 +116,18 @@ def _one_cell(scene: SceneModel, world_maker: WorldMaker, maker: SceneMaker) -> 
 def _terrain_block(query: TerrainBlockQuery, world: World, maker: SceneMaker) -> dict[str, Any]:
     for block in world.landblocks:
         if block.block == query.block:
-            return block.to_record()
+            return block.to_record() | _heights_again(query, maker)
     known = ", ".join(f"0x{block.block:04X}" for block in world.landblocks)
     maker.fault(("query", "block"), f"the landblock 0x{query.block:04X}", f"one of the scene's: {known}")
     return {}
+
+
+def _heights_again(query: TerrainBlockQuery, maker: SceneMaker) -> dict[str, Any]:
+    rows = query.heights_again
+    if rows is None:
+        return {}
+    heights = maker.attempt(lambda: table_heights(rows, as_map=False), ("query", "heights_again"))
+    return {"heights_again": list(heights or ())}
 
 
 def _crossing(query: CrossCellsQuery, world_maker: WorldMaker, maker: SceneMaker) -> dict[str, Any]:

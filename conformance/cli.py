@@ -3,12 +3,30 @@
 from __future__ import annotations
 
 import argparse
+import os
 import sys
 from importlib import metadata
 from typing import TYPE_CHECKING, Final
 
 from conformance import exit_codes
-from conformance.commands import bench, bugs, coverage, errors, export, lint, show, trace, trace_log, verify
+from conformance.commands import (
+    bench,
+    bugs,
+    coverage,
+    errors,
+    export,
+    fuzz,
+    lint,
+    list_cases,
+    mutants,
+    serve,
+    show,
+    smoke,
+    stress,
+    trace,
+    trace_log,
+    verify,
+)
 from conformance.commands.options import UsageError
 from conformance.console import tolerate_unprintable
 
@@ -21,13 +39,19 @@ _COMMANDS: Final[dict[str, ModuleType]] = {
     "verify": verify,
     "export": export,
     "lint": lint,
+    "list": list_cases,
     "bugs": bugs,
     "coverage": coverage,
+    "mutants": mutants,
     "trace": trace,
     "trace-log": trace_log,
     "bench": bench,
     "show": show,
     "errors": errors,
+    "fuzz": fuzz,
+    "stress": stress,
+    "serve": serve,
+    "smoke": smoke,
 }
 _DESCRIPTION: Final = """\
 Is a re-implementation of Asheron's Call movement and collision the same as retail?
@@ -41,7 +65,8 @@ The cases themselves run under pytest:
 def main(argv: Sequence[str] | None = None) -> int:
     """Run one command and return the exit code.
 
-    0 all is well, 1 something differs or is wrong, 2 the command line is wrong, 4 nothing was compared.
+    0 all is well, 1 something differs or is wrong, 2 the command line is wrong, 4 nothing was compared,
+    5 the results could not be written, 130 Ctrl-C ended the run.
     """
     tolerate_unprintable()
     parser = _make_parser()
@@ -49,9 +74,26 @@ def main(argv: Sequence[str] | None = None) -> int:
     try:
         code: int = _COMMANDS[args.command].run(args)
     except UsageError as error:
-        sys.stderr.write(f"conformance {args.command}: {error}\n")
-        return exit_codes.USAGE
+        return _give_up(args.command, str(error), exit_codes.USAGE)
+    except KeyboardInterrupt:
+        return _give_up(args.command, "broken off", exit_codes.BROKEN_OFF)
+    except OSError as error:
+        _silence_closed_pipe()
+        return _give_up(args.command, str(error), exit_codes.CANNOT_WRITE)
     return code
+
+
+def _give_up(command: str, reason: str, code: int) -> int:
+    sys.stderr.write(f"conformance {command}: {reason}\n")
+    return code
+
+
+def _silence_closed_pipe() -> None:
+    """Keep Python from trying again, at its end, to write what could not be written."""
+    try:
+        sys.stdout.flush()
+    except OSError:
+        sys.stdout = open(os.devnull, "w", encoding="utf-8")  # noqa: PTH123, SIM115 - until the process ends
 
 
 def _make_parser() -> argparse.ArgumentParser:

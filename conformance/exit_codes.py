@@ -10,3 +10,7 @@ FAILURES: Final = 1
 USAGE: Final = 2
 NOTHING_RAN: Final = 4
 """Nothing was compared, so nothing was shown to be right."""
+CANNOT_WRITE: Final = 5
+"""The results could not be written: a full disk, a folder that may not be written to, a closed pipe."""
+BROKEN_OFF: Final = 130
+"""Ctrl-C ended the run, as shells number it; what was known by then was shown, but it is not all."""

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import difflib
+import math
 import re
 from enum import Enum
 from typing import TYPE_CHECKING, Any, Final
@@ -241,10 +242,16 @@ def read_number(value: Any, path: str) -> float:
         raise FieldError(path, "a number beyond float64", "a number") from None
 
 
+def single_precision(number: float, path: str) -> float:
+    """Round to float32; raises `FieldError` for a finite number that no float32 is near."""
+    rounded = to_float32(number)
+    if math.isinf(rounded) and math.isfinite(number):
+        raise FieldError(path, f"the number {number!r}", "a number that fits in a float32")
+    return rounded
+
+
 def _float32(value: Any, path: str) -> float:
-    if value.__class__ is float:
-        return to_float32(value)
-    return to_float32(read_number(value, path))
+    return single_precision(value if value.__class__ is float else read_number(value, path), path)
 
 
 def _describe(value: Any) -> str:

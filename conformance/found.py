@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Any, Final
 
 import yaml
 
+from conformance.files import write_text
 from conformance.report.scene import scene_line
 from conformance.report.text import summary_line
 from conformance.vector_export import short_geometry, short_inputs
@@ -101,12 +102,11 @@ def write_found(
         What found it: test and profile.
     """
     document = found_document(query, differences, candidate=candidate, provenance=provenance)
-    directory.mkdir(parents=True, exist_ok=True)
     path = directory / f"{document['id']}.yaml"
     text = yaml.safe_dump(
         document, sort_keys=False, default_flow_style=None, width=_WIDTH, allow_unicode=True
     )
-    path.write_text(text, encoding="utf-8", newline="\n")
+    write_text(path, text)
     return path
 
 

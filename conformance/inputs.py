@@ -1,12 +1,13 @@
-"""The inputs of every operation of ``vectors/FORMAT.md``, and reading their numbers exactly."""
+"""The inputs of every operation, and reading their numbers exactly."""
 
 from __future__ import annotations
 
 import difflib
 from typing import TYPE_CHECKING, Any, Final
 
-from conformance.fields import FieldError, UnknownOperationError, read_number
-from conformance.floats import to_float32
+from conformance.fields import FieldError, UnknownOperationError, read_number, single_precision
+from conformance.input_shapes import MAX_DEPTH, check_atom, check_shape
+from conformance.own_operations import OWN_OPTIONAL, OWN_REQUIRED
 
 if TYPE_CHECKING:
     from collections.abc import Iterator, Mapping
@@ -106,21 +107,25 @@ REQUIRED: Final[Mapping[str, tuple[str, ...]]] = {
     "walk": ("cells", "mover", "start", "ticks"),
     "world_walk": ("world", "mover", "start", "ticks"),
     "body_walk": ("body", "ticks"),
+    **OWN_REQUIRED,
 }
 """What each operation must be given."""
+FORMAT_OPS: Final = tuple(op for op in REQUIRED if op not in OWN_REQUIRED)
+"""The operations of the vector files; random queries draw no others, which a candidate need not offer."""
 
 OPTIONAL: Final[Mapping[str, tuple[str, ...]]] = {
     "transition": ("placement_allows_sliding",),
     "object_call": ("is_creature",),
     "object_transition": ("placement_allows_sliding",),
     "world_transition": ("placement_allows_sliding",),
-    "terrain_block": ("terrain",),
-    "find_cell_list": ("do_not_load",),
+    "terrain_block": ("terrain", "side_cell_count", "heights_again"),
+    "find_cell_list": ("do_not_load", "without_path"),
     "find_transit_cells": ("array",),
     "cross_cells": ("sorting_sphere",),
     "seed": ("admin_move",),
     "update_object_gates": ("player", "maintainer_active", "parent"),
     "body_walk": ("cells", "world"),
+    **OWN_OPTIONAL,
 }
 """What an operation may be given besides."""
 
@@ -134,11 +139,14 @@ _FLOAT32_KEYS: Final = frozenset(
         *("step_down_amt", "step_up_height", "step_down_height", "quantum", "q", "v2"),
         *("velocity", "acceleration", "omega", "friction", "elasticity", "contact_plane"),
         *("sliding_normal", "collision_normal", "set_velocity", "set_local_velocity"),
+        *("direction", "degrees", "scales", "values", "heights_again", "drawing_sphere"),
     }
 )
 _FLOAT64_KEYS: Final = frozenset({"update_time", "cur_time", "last_update", "times"})
 _LISTS_ARE_FLOAT32: Final = frozenset({"from", "to", "other"})
 """Keys that are vectors in one operation and poses or cell ids in another."""
+_MOST_ROWS_DEEP: Final = 2
+"""Numbers stand in lists, and in lists of lists."""
 
 
 def read_inputs(op: str, record: Mapping[str, Any]) -> dict[str, Any]:
@@ -161,7 +169,7 @@ def read_inputs(op: str, record: Mapping[str, Any]) -> dict[str, Any]:
     UnknownOperationError
         For an operation that does not exist.
     FieldError
-        For an input that is missing, unknown or not a number where one belongs.
+        For an input that is missing, unknown, of another shape or not a number where one belongs.
     """
     required = REQUIRED.get(op)
     if required is None:
@@ -201,9 +209,12 @@ def is_float64_input(key: str) -> bool:
     return key in _FLOAT64_KEYS
 
 
-def _read(key: str, value: Any, path: str) -> Any:
+def _read(key: str, value: Any, path: str, depth: int = 0) -> Any:
+    check_shape(key, value, path)
+    if depth > MAX_DEPTH:
+        raise FieldError(path.partition(".")[0], f"more than {MAX_DEPTH} nested levels", "a shallower record")
     if isinstance(value, dict):
-        return {inner: _read(inner, item, f"{path}.{inner}") for inner, item in value.items()}
+        return {inner: _read(inner, item, f"{path}.{inner}", depth + 1) for inner, item in value.items()}
     if value is None:
         return None
     if key in _FLOAT32_KEYS:
@@ -213,16 +224,17 @@ def _read(key: str, value: Any, path: str) -> Any:
     if isinstance(value, list | tuple):
         if key in _LISTS_ARE_FLOAT32:
             return _floats(value, path, single=True)
-        return [_read("", item, f"{path}[{i}]") for i, item in enumerate(value)]
+        return [_read("", item, f"{path}[{i}]", depth + 1) for i, item in enumerate(value)]
     if isinstance(value, float):
         raise FieldError(path, f"{value!r} (float)", "a whole number or a name")
+    check_atom(key, value, path)
     return value
 
 
-def _floats(value: Any, path: str, *, single: bool) -> Any:
+def _floats(value: Any, path: str, *, single: bool, depth: int = 0) -> Any:
     if isinstance(value, list | tuple):
-        return [_floats(item, f"{path}[{i}]", single=single) for i, item in enumerate(value)]
-    if value.__class__ is float:
-        return to_float32(value) if single else value
-    number = read_number(value, path)
-    return to_float32(number) if single else number
+        if depth == _MOST_ROWS_DEEP:
+            raise FieldError(path, "a list", "a number")
+        return [_floats(item, f"{path}[{i}]", single=single, depth=depth + 1) for i, item in enumerate(value)]
+    number = value if value.__class__ is float else read_number(value, path)
+    return single_precision(number, path) if single else number

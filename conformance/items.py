@@ -10,6 +10,7 @@ import pytest
 
 from conformance.candidates.registry import make_candidate
 from conformance.loader import Vary, duplicate_id, load_file
+from conformance.plugin import CANDIDATES
 from conformance.summary import PROPERTY
 from conformance.trace_excerpt import excerpt
 from conformance.traced import parse_topics
@@ -31,7 +32,6 @@ MOST_SOURCE_LINES: Final = 60
 """Lines of a case's source shown with its failure."""
 
 _IDS: Final = pytest.StashKey["dict[str, Location]"]()
-_CANDIDATES: Final = pytest.StashKey["dict[str, Candidate]"]()
 
 
 class CaseFailedError(Exception):
@@ -165,7 +165,7 @@ class CaseItem(pytest.Item):
     def rerun_command(self) -> str:
         """Return the command that runs only this case."""
         parts = ["pytest", f"{_relative(self.path, self.config.invocation_params.dir)}::{self.name}"]
-        for option in ("--candidate", "--poses", "--pose-seed", "--trace-writes"):
+        for option in ("--candidate", "--poses", "--pose-seed", "--trace-writes", "--read-timeout"):
             value = self.config.getoption(option, None)
             if value is not None and value != "engine":
                 parts += [option, str(value)]
@@ -176,9 +176,9 @@ class CaseItem(pytest.Item):
 
 def candidate_of(config: pytest.Config, spec: str) -> Candidate:
     """Return a candidate, made once in a run."""
-    made = config.stash.setdefault(_CANDIDATES, {})
+    made = config.stash.setdefault(CANDIDATES, {})
     if spec not in made:
-        made[spec] = make_candidate(spec)
+        made[spec] = make_candidate(spec, read_timeout=config.getoption("--read-timeout", None))
     return made[spec]
 
 

@@ -2,7 +2,10 @@
 
 from __future__ import annotations
 
+import codecs
 import json
+import math
+import re
 from typing import TYPE_CHECKING, Any, Final
 
 from conformance.vector_errors import MalformedLineError
@@ -10,43 +13,98 @@ from conformance.vector_errors import MalformedLineError
 if TYPE_CHECKING:
     from collections.abc import Iterator
     from pathlib import Path
+    from typing import BinaryIO
+
+MAX_LINE_BYTES: Final = 1 << 24
+"""Longest line that is read, 16 MiB: ten times the largest of a real dungeon's."""
 
 _STARTS: Final = {dict: "an object", list: "a list", str: "a string", int: "a number", float: "a number"}
+_UTF16_MARKS: Final = (codecs.BOM_UTF16_LE, codecs.BOM_UTF16_BE)
+_ESCAPED_SURROGATE: Final = re.compile(r"\\u[dD][89a-fA-F]")
+_PERHAPS_TOO_LARGE: Final = re.compile(r"[eE]\+?[0-9]{3}|[0-9]{300}")
+"""What a number beyond float64 looks like."""
 
 
-def read_lines(path: Path) -> Iterator[tuple[int, dict[str, Any]] | MalformedLineError]:
+def lines_of(stream: BinaryIO, name: Path) -> Iterator[tuple[int, dict[str, Any]] | MalformedLineError]:
     """Yield the number and object of every line that is not blank, or the error that it is.
 
-    Raises
-    ------
-    OSError
-        If the file cannot be read at all.
+    Parameters
+    ----------
+    stream : binary file
+        Read line by line, so that a file may be of any size.
+    name : Path
+        What errors call the file.
     """
-    with path.open("rb") as file:
-        for number, raw in enumerate(file, start=1):
-            if raw.strip():
-                yield _read_line(path, number, raw.rstrip(b"\r\n"))
+    number = 0
+    while raw := stream.readline(MAX_LINE_BYTES + 1):
+        number += 1
+        if len(raw) > MAX_LINE_BYTES:
+            yield _malformed(f"a line longer than {MAX_LINE_BYTES} bytes", name, number, 1)
+            _skip_line(stream, raw)
+        elif raw.strip():
+            yield _read_line(name, number, raw.rstrip(b"\r\n"))
 
 
-def _read_line(path: Path, number: int, raw: bytes) -> tuple[int, dict[str, Any]] | MalformedLineError:
+def _skip_line(stream: BinaryIO, raw: bytes) -> None:
+    """Read on to the end of a line without keeping it."""
+    while raw and not raw.endswith(b"\n"):
+        raw = stream.readline(MAX_LINE_BYTES)
+
+
+def _read_line(name: Path, number: int, raw: bytes) -> tuple[int, dict[str, Any]] | MalformedLineError:
     try:
-        record = json.loads(raw.decode("utf-8"), parse_constant=_refuse_constant)
+        text = raw.decode("utf-8-sig" if number == 1 else "utf-8")
+        read_float = _finite if _PERHAPS_TOO_LARGE.search(text) else None
+        record = json.loads(
+            text, parse_constant=_refuse_constant, parse_float=read_float, object_pairs_hook=_once_each
+        )
+        if _ESCAPED_SURROGATE.search(text):
+            _check_text(record)
     except UnicodeDecodeError as error:
-        return _malformed(f"not UTF-8: {error.reason}", path, number, error.start + 1)
+        reason = "UTF-16" if raw.startswith(_UTF16_MARKS) else error.reason
+        return _malformed(f"not UTF-8: {reason}", name, number, error.start + 1)
     except json.JSONDecodeError as error:
-        return _malformed(f"not JSON: {error.msg}", path, number, error.colno)
-    except (ValueError, RecursionError) as error:
-        return _malformed(f"not JSON: {error}", path, number, 1)
+        return _malformed(f"not JSON: {error.msg}", name, number, error.colno)
+    except RecursionError:
+        return _malformed("not JSON that can be read: nested too deeply", name, number, 1)
+    except ValueError as error:
+        return _malformed(f"not JSON: {error}", name, number, 1)
     if not isinstance(record, dict):
         kind = _STARTS.get(type(record), "a constant")
-        return _malformed(f"found {kind}, expected an object", path, number, 1)
+        return _malformed(f"found {kind}, expected an object", name, number, 1)
     return number, record
 
 
-def _malformed(message: str, path: Path, line: int, column: int) -> MalformedLineError:
-    return MalformedLineError(message, file=path, line=line, column=column)
+def _malformed(message: str, file: Path, line: int, column: int) -> MalformedLineError:
+    return MalformedLineError(message, file=file, line=line, column=column)
 
 
 def _refuse_constant(name: str) -> float:
     quoted = {"NaN": "nan", "Infinity": "inf", "-Infinity": "-inf"}[name]
     raise ValueError(f'{name} is not JSON, expected the string "{quoted}"')
+
+
+def _finite(text: str) -> float:
+    number = float(text)
+    if math.isinf(number):
+        raise ValueError(f"{text[:20]} is beyond any float")
+    return number
+
+
+def _once_each(pairs: list[tuple[str, Any]]) -> dict[str, Any]:
+    """Make an object; of a key that is there twice JSON does not say which counts."""
+    record = dict(pairs)
+    if len(record) != len(pairs):
+        keys = [key for key, _ in pairs]
+        twice = next(key for key in keys if keys.count(key) > 1)
+        raise ValueError(f"the key {twice!a} twice in an object, expected each key once")
+    return record
+
+
+def _check_text(record: Any) -> None:
+    """Refuse half of a surrogate pair, which is no character and cannot be written in UTF-8."""
+    try:
+        json.dumps(record, ensure_ascii=False).encode("utf-8")
+    except UnicodeEncodeError as error:
+        half = ord(error.object[error.start])
+        raise ValueError(f"half a character, U+{half:04X}, expected text") from None

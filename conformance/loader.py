@@ -26,6 +26,7 @@ __all__ = [
     "Vary",
     "case_files",
     "duplicate_id",
+    "load_document",
     "load_file",
     "load_paths",
 ]
@@ -92,6 +93,11 @@ def load_file(path: Path, vary: Vary = AS_WRITTEN) -> Loaded:
         document = read_document(path, _shown(path))
     except YamlError as error:
         return Loaded(problems=(error.problem,))
+    return load_document(document, vary)
+
+
+def load_document(document: Document, vary: Vary = AS_WRITTEN) -> Loaded:
+    """Load the cases of a document that was read."""
     cases: list[Case] = []
     problems: list[Problem] = []
     below_cases = list(_case_data(document, problems))

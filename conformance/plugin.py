@@ -28,7 +28,11 @@ _FOLDERS: Final = pytest.StashKey["tuple[Path, ...]"]()
 _EXPECTS_CASES: Final = pytest.StashKey[bool]()
 _COLLECTED: Final = pytest.StashKey[int]()
 _TALLY: Final = pytest.StashKey["Tally"]()
+_COMPLAINTS: Final = pytest.StashKey["list[str]"]()
 _WORKER_OUTPUT: Final = "conformance_collected"
+_WORKER_COMPLAINTS: Final = "conformance_complaints"
+CANDIDATES: Final = pytest.StashKey["dict[str, Candidate]"]()
+"""Every candidate that was made in a run, by its name."""
 
 
 class Tally:
@@ -50,7 +54,14 @@ def pytest_addoption(parser: pytest.Parser) -> None:
         "--candidate",
         default=DEFAULT_CANDIDATE,
         metavar="SPEC",
-        help="what is compared with retail: engine, oracle, bug:NAME (default: %(default)s)",
+        help='what is compared with retail: engine, oracle, bug:NAME, "cmd:./my-engine --flag", '
+        "mod:package.module:factory (default: %(default)s)",
+    )
+    group.addoption(
+        "--read-timeout",
+        type=float,
+        metavar="SECONDS",
+        help="within which a cmd: engine must reply, or be started anew (default: 30)",
     )
     group.addoption(
         "--cases",
@@ -81,6 +92,7 @@ def pytest_configure(config: pytest.Config) -> None:
     _check_candidate(config)
     _check_topics(config)
     config.stash[_COLLECTED] = 0
+    config.stash[_COMPLAINTS] = []
     config.stash[_TALLY] = Tally()
     config.pluginmanager.register(config.stash[_TALLY], "conformance-tally")
     config.stash[_EXPECTS_CASES] = bool(given) or _covers(config, BUILT_IN_CASES)
@@ -111,18 +123,19 @@ def _check_candidate(config: pytest.Config) -> None:
     spec = config.getoption("--candidate", DEFAULT_CANDIDATE)
     if spec != DEFAULT_CANDIDATE:
         from conformance.candidates.registry import (
+            BadCandidateError,
             MissingExtraError,
             UnknownCandidateError,
-            candidate_names,
-            check_extra,
+            check_spec,
         )
 
-        if spec not in candidate_names():
-            raise pytest.UsageError(f"--candidate: {UnknownCandidateError(spec, candidate_names())}")
         try:
-            check_extra(spec)
-        except MissingExtraError as error:
+            check_spec(spec)
+        except (BadCandidateError, MissingExtraError, UnknownCandidateError) as error:
             raise pytest.UsageError(f"--candidate: {error}") from error
+    seconds = config.getoption("--read-timeout", None)
+    if seconds is not None and not 0.0 < seconds < float("inf"):
+        raise pytest.UsageError(f"--read-timeout: found {seconds}, expected seconds, more than 0")
 
 
 def _check_topics(config: pytest.Config) -> None:
@@ -189,11 +202,23 @@ def pytest_collection_modifyitems(config: pytest.Config, items: list[pytest.Item
 def pytest_sessionfinish(session: pytest.Session, exitstatus: int) -> None:
     """Turn a run of the suite red that has found no case, or that has compared nothing."""
     config = session.config
+    _close_candidates(config)
     output: dict[str, Any] | None = getattr(config, "workeroutput", None)
     if output is not None:
         output[_WORKER_OUTPUT] = config.stash[_COLLECTED]
+        output[_WORKER_COMPLAINTS] = config.stash[_COMPLAINTS]
+    elif exitstatus in {pytest.ExitCode.OK, pytest.ExitCode.NO_TESTS_COLLECTED} and config.stash[_COMPLAINTS]:
+        session.exitstatus = pytest.ExitCode.TESTS_FAILED
     elif exitstatus == pytest.ExitCode.OK and _complaint(config):
         session.exitstatus = pytest.ExitCode.NO_TESTS_COLLECTED
+
+
+def _close_candidates(config: pytest.Config) -> None:
+    """Stop the engines that were started, and keep what was wrong with how they stopped."""
+    for spec, made in config.stash.get(CANDIDATES, {}).items():
+        from conformance.candidates.base import close
+
+        config.stash[_COMPLAINTS] += [f"{spec}: {complaint}" for complaint in close(made)]
 
 
 def _complaint(config: pytest.Config) -> str:
@@ -210,9 +235,10 @@ def _complaint(config: pytest.Config) -> str:
 def pytest_testnodedown(node: Any, error: object) -> None:
     """Take over the count of a pytest-xdist worker; every worker collects everything."""
     del error
-    collected = getattr(node, "workeroutput", {}).get(_WORKER_OUTPUT, 0)
+    output = getattr(node, "workeroutput", {})
     stash = node.config.stash
-    stash[_COLLECTED] = max(stash[_COLLECTED], collected)
+    stash[_COLLECTED] = max(stash[_COLLECTED], output.get(_WORKER_OUTPUT, 0))
+    stash[_COMPLAINTS] += output.get(_WORKER_COMPLAINTS, ())
 
 
 def pytest_terminal_summary(terminalreporter: Any, config: pytest.Config) -> None:
@@ -222,6 +248,8 @@ def pytest_terminal_summary(terminalreporter: Any, config: pytest.Config) -> Non
         terminalreporter.section("conformance")
         for line in counts.lines(config.getoption("--candidate", DEFAULT_CANDIDATE)):
             terminalreporter.write_line(line)
+        for stopping in config.stash[_COMPLAINTS]:
+            terminalreporter.write_line(f"conformance: {stopping}", red=True)
         if complaint := _complaint(config):
             terminalreporter.write_line(f"conformance: {complaint}", red=True)
 

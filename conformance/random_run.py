@@ -9,11 +9,12 @@ from typing import TYPE_CHECKING, Any
 
 from hypothesis import given
 
+from conformance.candidates.base import ask_ahead
 from conformance.compare import differences
 from conformance.found import write_found
 from conformance.profiles import scaled
 from conformance.query import Result, Skipped
-from conformance.report.text import render_failure, summary_line
+from conformance.report.text import quoted_spec, render_failure, summary_line
 from conformance.report.ticks import ticks_around
 
 if TYPE_CHECKING:
@@ -105,7 +106,7 @@ def explain(run: RandomRun, directory: Path, candidate: Candidate, *, name: str,
         directory, query, found, candidate=candidate.name, provenance=f"{name}, profile {profile}"
     )
     title = error or f"{candidate.name} and retail disagree"
-    rerun = f'pytest "{path}" --candidate {candidate.name}'
+    rerun = f'pytest "{path}" --candidate {quoted_spec(candidate.name)}'
     return render_failure(
         case=name,
         title=title,
@@ -121,6 +122,7 @@ def _ask(
     query: Query, candidate: Candidate, oracle: Candidate, run: RandomRun
 ) -> tuple[list[Difference], str]:
     answers = []
+    ask_ahead(candidate, (query,))
     for who in (oracle, candidate):
         outcome = who.answer(query)
         if isinstance(outcome, Skipped):

@@ -8,7 +8,7 @@ from __future__ import annotations
 from types import MappingProxyType
 from typing import TYPE_CHECKING, Any, Final
 
-from conformance.outputs import CELL, COUNT, FLAG, OPTIONAL_POINT, PLANE, POINT, TEXT
+from conformance.output_shapes import CELL, COUNT, FLAG, OPTIONAL_POINT, PLANE, POINT, TEXT
 from conformance.shapes import Block, Listing, Nullable
 
 if TYPE_CHECKING:

@@ -6,9 +6,10 @@ from dataclasses import dataclass
 from types import MappingProxyType
 from typing import TYPE_CHECKING, Any, Final
 
+from conformance.effort import check_effort
 from conformance.fields import FieldError, UnknownOperationError, normalise
 from conformance.inputs import geometry_names, read_inputs
-from conformance.json_lines import read_lines
+from conformance.json_lines import lines_of
 from conformance.query import Query
 from conformance.vector_errors import (
     DuplicateIdError,
@@ -20,6 +21,7 @@ from conformance.vector_errors import (
 if TYPE_CHECKING:
     from collections.abc import Iterator, Mapping
     from pathlib import Path
+    from typing import BinaryIO
 
     from conformance.query import Fields
     from conformance.scenes.model import Geometry
@@ -68,8 +70,14 @@ def read_vectors(path: Path, library: Library) -> Iterator[VectorRecord | Vector
     OSError
         If the file cannot be read at all.
     """
+    with path.open("rb") as stream:
+        yield from records_of(stream, path, library)
+
+
+def records_of(stream: BinaryIO, path: Path, library: Library) -> Iterator[VectorRecord | VectorError]:
+    """Yield the records of an open file, which errors call `path`; see `read_vectors`."""
     seen: set[str] = set()
-    for item in read_lines(path):
+    for item in lines_of(stream, path):
         if isinstance(item, VectorError):
             yield item
             continue
@@ -105,7 +113,7 @@ def query_from_record(
     Raises
     ------
     UnknownOperationError, FieldError
-        For an operation or input that is not as FORMAT.md says.
+        For an operation or input that is not as FORMAT.md says, or asks for years of work.
     KeyError
         With the name of a geometry or world that is not there.
     """
@@ -115,6 +123,7 @@ def query_from_record(
     inputs = read_inputs(op, record)
     if isinstance(inputs.get("world"), str):
         inputs["world"] = worlds[inputs["world"]]
+    check_effort(inputs)
     named = {name: geometries[name] for name in geometry_names(inputs)}
     return Query(op=op, inputs=inputs, geometries=named, label=label)
 
@@ -127,8 +136,8 @@ class _RecordError(ValueError):
 
 def _read_record(record: Mapping[str, Any], line: int, library: Library, seen: set[str]) -> VectorRecord:
     record_id = record.get("id")
-    if not isinstance(record_id, str):
-        raise _RecordError(f"id: found {record_id!r}, expected a string", MalformedRecordError)
+    if not isinstance(record_id, str) or not record_id:
+        raise _RecordError(f"id: found {record_id!r}, expected some text", MalformedRecordError)
     if record_id in seen:
         raise _RecordError(f"{record_id!r} is there twice", DuplicateIdError)
     seen.add(record_id)
@@ -140,4 +149,12 @@ def _read_record(record: Mapping[str, Any], line: int, library: Library, seen: s
         raise _RecordError(message, MissingGeometryError) from None
     except (UnknownOperationError, FieldError) as error:
         raise _RecordError(str(error), MalformedRecordError) from None
-    return VectorRecord(record_id, query, expected, record.get("uncertain"), line)
+    return VectorRecord(record_id, query, expected, _doubt(record), line)
+
+
+def _doubt(record: Mapping[str, Any]) -> str | None:
+    """Return why a record is only advisory, or None."""
+    reason = record.get("uncertain")
+    if reason is not None and not isinstance(reason, str):
+        raise _RecordError(f"uncertain: found {reason!r}, expected a reason as text", MalformedRecordError)
+    return reason

@@ -3,16 +3,18 @@
 from __future__ import annotations
 
 from functools import cached_property
+from io import BytesIO
 from typing import TYPE_CHECKING, Any, Final
 
 from conformance.inputs import read_block
-from conformance.json_lines import read_lines
+from conformance.json_lines import lines_of
 from conformance.scenes.records import geometry_from_record
 from conformance.vector_errors import DuplicateIdError, MalformedRecordError, VectorError
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterator, Mapping
     from pathlib import Path
+    from typing import BinaryIO
 
     from conformance.scenes.model import Geometry
 
@@ -23,6 +25,13 @@ WORLD_FILE: Final = "worlds.jsonl"
 class Library:
     """The shared records of one folder, read when first asked for.
 
+    Parameters
+    ----------
+    folder : Path
+        Where the files are.
+    contents : mapping of str to bytes, optional
+        What the shared files hold, by name; then the folder is not looked into.
+
     Attributes
     ----------
     folder : Path
@@ -31,8 +40,9 @@ class Library:
         The lines that could not be read so far; records that need them report a missing geometry.
     """
 
-    def __init__(self, folder: Path) -> None:
+    def __init__(self, folder: Path, contents: Mapping[str, bytes] | None = None) -> None:
         self.folder = folder
+        self._contents = contents
         self.errors: list[VectorError] = []
 
     @cached_property
@@ -52,15 +62,26 @@ class Library:
 
     def _read(self, file: str, found: dict[str, Any], make: Callable[[dict[str, Any]], Any]) -> None:
         path = self.folder / file
-        if path.is_file():
-            for line, record in self._named(path, found):
+        stream = self._open(path)
+        if stream is None:
+            return
+        with stream:
+            for line, record in self._named(stream, path, found):
                 try:
                     found[record["name"]] = make(record)
                 except ValueError as error:
                     self.errors.append(MalformedRecordError(str(error), file=path, line=line))
 
-    def _named(self, path: Path, found: Mapping[str, Any]) -> Iterator[tuple[int, dict[str, Any]]]:
-        for item in read_lines(path):
+    def _open(self, path: Path) -> BinaryIO | None:
+        if self._contents is not None:
+            raw = self._contents.get(path.name)
+            return None if raw is None else BytesIO(raw)
+        return path.open("rb") if path.is_file() else None
+
+    def _named(
+        self, stream: BinaryIO, path: Path, found: Mapping[str, Any]
+    ) -> Iterator[tuple[int, dict[str, Any]]]:
+        for item in lines_of(stream, path):
             if isinstance(item, VectorError):
                 self.errors.append(item)
                 continue

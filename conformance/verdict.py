@@ -6,6 +6,7 @@ from collections import Counter
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING
 
+from conformance.candidates.base import ask_ahead
 from conformance.compare import differences, pin_differences
 from conformance.query import Errored, Result, Skipped
 from conformance.report.text import render_failure, summary_line
@@ -53,7 +54,8 @@ class Failure:
         """The first difference, in a line."""
         if self.found:
             return summary_line(self.found[0], self.who, retail=self.against)
-        return f"{self.who} failed: {self.error}"
+        first, _, _log = self.error.partition("\n")
+        return f"{self.who} failed: {first}"
 
     def render(self, case: Case, rerun: str) -> str:
         """Explain the failure in several lines."""
@@ -61,7 +63,7 @@ class Failure:
         step = case.id if tick is None else step_id(case.id, tick)
         head = f"{step} [{self.query.label}]" if self.query.label != case.id else step
         if not self.found:
-            return f"{head}: {case.title}\n\n  {self.summary}\n\n  rerun: {rerun}"
+            return f"{head}: {case.title}\n\n  {self.who} failed: {self.error}\n\n  rerun: {rerun}"
         return render_failure(
             case=head,
             title=case.title,
@@ -96,6 +98,7 @@ def judge(case: Case, candidate: Candidate, oracle: Candidate) -> Verdict:
         Who answers for retail.
     """
     verdict = Verdict()
+    ask_ahead(candidate, case.queries)
     for index, query in enumerate(case.queries):
         _judge_query(verdict, case if index == 0 else None, query, candidate, oracle)
     return verdict

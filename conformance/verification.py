@@ -4,15 +4,17 @@ from __future__ import annotations
 
 from collections import Counter
 from dataclasses import dataclass, field
+from itertools import islice
 from typing import TYPE_CHECKING, Any, Final
 
+from conformance.candidates.base import ask_ahead
 from conformance.compare import differences
 from conformance.query import Errored, Skipped
 from conformance.vector_errors import VectorError
 from conformance.vector_io import VectorRecord, read_vectors
 
 if TYPE_CHECKING:
-    from collections.abc import Collection
+    from collections.abc import Collection, Iterator
     from pathlib import Path
 
     from conformance.candidates.base import Candidate
@@ -21,14 +23,17 @@ if TYPE_CHECKING:
     from conformance.vector_library import Library
 
 _PROGRESS_STEP: Final = 64
-"""Records between two updates of the progress line."""
+"""Records that are asked together, between two updates of the progress line."""
 
 
 @dataclass(frozen=True, slots=True)
 class Failure:
-    """One record that failed: with differences, or with what went wrong instead of an answer."""
+    """One record that failed: with differences, or with what went wrong instead of an answer.
 
-    line: int
+    What went wrong in no line of a file, as an engine that does not stop, has none.
+    """
+
+    line: int | None
     record: VectorRecord | None
     differences: tuple[Difference, ...] = ()
     error: str = ""
@@ -99,6 +104,7 @@ def verify_file(
     *,
     only: Collection[str] = (),
     progress: Progress | None = None,
+    tally: Tally | None = None,
 ) -> Tally:
     """Ask a candidate every record of a vector file and compare; signs of zero are equal there.
 
@@ -114,22 +120,38 @@ def verify_file(
         Ids of the records to ask; empty means all.
     progress : Progress or None
         Where to say how far it is.
+    tally : Tally or None
+        Where to count; it then holds what was compared also if Ctrl-C ends the run.
 
     Raises
     ------
     OSError
         If the file cannot be read at all.
     """
-    tally = Tally()
-    for count, item in enumerate(read_vectors(path, library)):
-        if progress is not None and count % _PROGRESS_STEP == 0:
+    tally = Tally() if tally is None else tally
+    count = 0
+    for batch in _batches(read_vectors(path, library)):
+        if progress is not None:
             progress.say(f"{path.name}: {count} records, {tally.failed} failed")
-        if isinstance(item, VectorError):
-            if not only or item.record_id in only:
+        count += len(batch)
+        asked = [item for item in batch if not only or _id_of(item) in only]
+        ask_ahead(candidate, [item.query for item in asked if isinstance(item, VectorRecord)])
+        for item in asked:
+            if isinstance(item, VectorError):
                 tally.fail(Failure(item.line, None, error=str(item)))
-        elif not only or item.id in only:
-            _verify_record(item, candidate, tally)
+            else:
+                _verify_record(item, candidate, tally)
     return tally
+
+
+def _batches(items: Iterator[VectorRecord | VectorError]) -> Iterator[list[VectorRecord | VectorError]]:
+    """Group records that are read, and asked of a candidate that works beside the suite, together."""
+    while batch := list(islice(items, _PROGRESS_STEP)):
+        yield batch
+
+
+def _id_of(item: VectorRecord | VectorError) -> str | None:
+    return item.id if isinstance(item, VectorRecord) else item.record_id
 
 
 def _verify_record(record: VectorRecord, candidate: Candidate, tally: Tally) -> None:

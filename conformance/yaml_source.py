@@ -8,6 +8,7 @@ rest unreadable ends the reading: the other refusals are collected.
 
 from __future__ import annotations
 
+import codecs
 import math
 import re
 from dataclasses import dataclass, field, replace
@@ -20,12 +21,18 @@ from conformance.source import DocPath, Fault, Location, Problem, describe, form
 if TYPE_CHECKING:
     import pathlib
 
+MAX_BYTES: Final = 1 << 24
+"""Longest file that is read, 16 MiB: a hundred times the largest of this suite."""
+MAX_VALUES: Final = 300_000
+"""Most values of a file; the place of each is remembered, which takes about 300 bytes."""
 MAX_DEPTH: Final = 256
 """Deepest nesting of lists and mappings; BSP trees of cells are below 100 levels."""
 MAX_ALIASED_VALUES: Final = 10_000
 """How many values all aliases of a file together may stand for."""
 MAX_DIGITS: Final = 40
 """Longest integer that is read as one; a float32 has at most 39 digits before its point."""
+MAX_REWORDED: Final = 1 << 17
+"""Longest text, in characters, whose syntax errors are looked up with the slow parser: about a second."""
 
 _NULL: Final = re.compile(r"~|null|Null|NULL|")
 _TRUE: Final = re.compile(r"true|True|TRUE")
@@ -35,6 +42,8 @@ _HEX: Final = re.compile(r"0x[0-9a-fA-F]+")
 _FLOAT: Final = re.compile(r"[-+]?(\.[0-9]+|[0-9]+(\.[0-9]*)?)([eE][-+]?[0-9]+)?")
 _NON_FINITE: Final = re.compile(r"[-+]?\.(inf|Inf|INF)|\.(nan|NaN|NAN)")
 _NOT_TEXT: Final = re.compile("[^\t\n\r\x20-\x7e\x85\xa0-\ud7ff\ue000-\ufffd\U00010000-\U0010ffff]")
+_LINE_END: Final = re.compile("\r\n|[\n\r\x85\u2028\u2029]")
+"""What ends a line for PyYAML and libyaml; Python's `splitlines` knows some more."""
 _BOM: Final = "\ufeff"
 _NO_KEY: Final = "\0"
 """Stands for a key that was refused; no text of a file holds it."""
@@ -121,13 +130,17 @@ def read_document(path: pathlib.Path, name: str | None = None) -> Document:
     Raises
     ------
     YamlError
-        It is not UTF-8 or not a document of this dialect.
+        It is too long, not UTF-8 or not a document of this dialect.
     """
-    return parse(path.read_bytes(), name if name is not None else str(path))
+    with path.open("rb") as stream:
+        raw = stream.read(MAX_BYTES + 1)
+    return parse(raw, name if name is not None else str(path))
 
 
 def parse(raw: bytes, name: str) -> Document:
     """Parse the bytes of a file; see `read_document`."""
+    if len(raw) > MAX_BYTES:
+        raise YamlError(Problem(Location(name), "", f"more than {MAX_BYTES} bytes", "a shorter file"))
     text = _decode(raw, name)
     try:
         return _Composer(text, name, _FAST_LOADER).document()
@@ -140,7 +153,8 @@ def _decode(raw: bytes, name: str) -> str:
         text = raw.decode("utf-8").removeprefix(_BOM)
     except UnicodeDecodeError as error:
         before = raw[: error.start].decode("utf-8")
-        found = f"the byte 0x{raw[error.start]:02X}"
+        is_utf16 = raw.startswith((codecs.BOM_UTF16_LE, codecs.BOM_UTF16_BE))
+        found = "text in UTF-16" if is_utf16 else f"the byte 0x{raw[error.start]:02X}"
         raise YamlError(_problem_at(before, len(before), name, found, "text in UTF-8")) from None
     if bad := _NOT_TEXT.search(text):
         found = f"the control character U+{ord(bad[0]):04X}"
@@ -149,18 +163,23 @@ def _decode(raw: bytes, name: str) -> str:
 
 
 def _problem_at(text: str, offset: int, name: str, found: str, expected: str) -> Problem:
-    line = text.count("\n", 0, offset) + 1
-    column = offset - (text.rfind("\n", 0, offset) + 1) + 1
+    before = split_lines(text[:offset])
+    line, column = len(before), len(before[-1]) + 1
     return Problem(Location(name, line, column), "", found, expected, source_line=_line(text, line))
 
 
+def split_lines(text: str) -> list[str]:
+    """Split a text where YAML's lines end; what is behind the last end is a line, too, empty or not."""
+    return _LINE_END.split(text)
+
+
 def _line(text: str, number: int) -> str:
-    return (text.splitlines()[number - 1 : number] or [""])[0]
+    return (split_lines(text)[number - 1 : number] or [""])[0]
 
 
 def _syntax_problem(text: str, name: str, error: yaml.YAMLError) -> Problem:
     """Word a syntax error as the pure-Python parser does, so that it reads the same on every machine."""
-    if _FAST_LOADER is not yaml.SafeLoader:
+    if _FAST_LOADER is not yaml.SafeLoader and len(text) <= MAX_REWORDED:
         try:
             _Composer(text, name, yaml.SafeLoader).document()
         except yaml.YAMLError as same:
@@ -182,7 +201,7 @@ class _Composer:
 
     def __init__(self, text: str, name: str, loader: Any) -> None:
         self._loader = loader(text)
-        self._doc = Document(name, text.splitlines())
+        self._doc = Document(name, split_lines(text))
         self._anchors: dict[str, tuple[Any, int]] = {}
         self._open_anchors: set[str] = set()
         self._aliased = 0
@@ -207,8 +226,12 @@ class _Composer:
         self._doc.values.setdefault(path, _place(event))
         if isinstance(event, yaml.AliasEvent):
             return self._alias(event, path)
+        if self._count == MAX_VALUES:
+            self._give_up(event, path[:3], f"more than {MAX_VALUES} values", "a shorter document")
         if event.tag is not None and event.tag != "!":
             self._refuse(event, path, f"the tag {event.tag!r}", "a plain value, without a tag")
+        if event.anchor in self._open_anchors or event.anchor in self._anchors:
+            self._refuse(event, path, f"the anchor &{event.anchor} a second time", "another name")
         before = self._count
         if event.anchor:
             self._open_anchors.add(event.anchor)
@@ -229,7 +252,7 @@ class _Composer:
     def _mapping(self, path: DocPath, depth: int) -> dict[str, Any]:
         mapping: dict[str, Any] = {}
         while not self._at_end(yaml.MappingEndEvent):
-            key = self._key(path, depth)
+            key = self._key(path)
             value = self._value((*path, key), depth + 1)
             mapping.setdefault(key, value)
         mapping.pop(_NO_KEY, None)
@@ -247,10 +270,10 @@ class _Composer:
         self._loader.get_event()
         return True
 
-    def _key(self, path: DocPath, depth: int) -> str:
+    def _key(self, path: DocPath) -> str:
         event = self._loader.peek_event()
         if not isinstance(event, yaml.ScalarEvent):
-            self._value((*path, _NO_KEY), depth + 1)
+            self._skip()
             return self._refuse_key(event, path, "a list, mapping or alias as a key")
         self._loader.get_event()
         if not event.style and event.value == "<<":
@@ -264,6 +287,16 @@ class _Composer:
             self._refuse(event, (*path, key), found, "each key once")
         return key
 
+    def _skip(self) -> None:
+        """Pass over a value without looking into it, however deep it is."""
+        level = 0
+        while True:
+            event = self._loader.get_event()
+            level += isinstance(event, yaml.CollectionStartEvent)
+            level -= isinstance(event, yaml.CollectionEndEvent)
+            if level == 0:
+                return
+
     def _refuse_key(self, event: Any, path: DocPath, found: str, hint: str = "") -> str:
         self._refuse(event, path, found, "text as a key", hint)
         return _NO_KEY
@@ -271,6 +304,9 @@ class _Composer:
     def _scalar(self, event: Any, path: DocPath) -> Any:
         text = event.value
         if event.style or event.tag == "!":
+            if event.style == '"' and (bad := _NOT_TEXT.search(text)):
+                self._refuse(event, path, f"the control character U+{ord(bad[0]):04X}", "printable text")
+                return _NOT_TEXT.sub("?", text)
             return text
         if _NON_FINITE.fullmatch(text):
             self._refuse(event, path, f"the number {text}", "a finite number")
@@ -278,7 +314,7 @@ class _Composer:
         if _INT.fullmatch(text):
             return self._int(event, path)
         if _HEX.fullmatch(text):
-            return int(text, 16)
+            return self._hexadecimal(event, path)
         if _FLOAT.fullmatch(text):
             return self._float(event, path)
         if _NULL.fullmatch(text):
@@ -288,6 +324,13 @@ class _Composer:
     def _int(self, event: Any, path: DocPath) -> int | float:
         # Python refuses to read integers of thousands of digits; the file can hold none that fits.
         return int(event.value) if len(event.value) <= MAX_DIGITS else self._float(event, path)
+
+    def _hexadecimal(self, event: Any, path: DocPath) -> int:
+        if len(event.value) > MAX_DIGITS:
+            found = f"a number of {len(event.value) - 2} hexadecimal digits"
+            self._refuse(event, path, found, f"at most {MAX_DIGITS - 2}")
+            return 0
+        return int(event.value, 16)
 
     def _float(self, event: Any, path: DocPath) -> float:
         value = float(event.value)

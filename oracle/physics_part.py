@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Final
+from typing import TYPE_CHECKING, Final, cast
 
 from oracle.constants import EPS
 from oracle.enums import InsertType, TransitionState
@@ -58,12 +58,12 @@ class GfxObj:
     def find_obj_collisions(self, transition: Transition, scale: float) -> TransitionState:
         """Test the path's local-space spheres against the physics BSP, if one comes near it.
 
+        The caller has seen that there is one (08 6.1).
+
         retail: CGfxObj::find_obj_collisions 0x00534700, 08 7.
         """
         path = transition.sphere_path
-        bsp, ps = self.physics_bsp, self.physics_sphere
-        if bsp is None or ps is None:
-            return TransitionState.OK
+        bsp, ps = cast("BSPTree", self.physics_bsp), cast("Sphere", self.physics_sphere)
         # 08 7.1, 08 7.2
         for i in range(path.num_sphere):
             s = path.localspace_sphere[i]
@@ -173,11 +173,6 @@ class Setup:
     sphere: tuple[Sphere, ...] = ()
     allow_free_heading: bool = False
     sorting_sphere: Sphere | None = None
-
-    @property
-    def num_cylsphere(self) -> int:
-        """How many collision cylinders it has."""
-        return len(self.cylsphere)
 
     @property
     def num_sphere(self) -> int:

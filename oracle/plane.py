@@ -42,10 +42,6 @@ class Plane:
         """
         return cls(normal.copy(), f32(-dot_x(point, normal)))
 
-    def copy(self) -> Plane:
-        """Return a bit copy."""
-        return Plane(self.N.copy(), self.d)
-
     def assign(self, other: Plane) -> None:
         """Copy the four fields of `other`."""
         self.N.assign(other.N)

@@ -1,4 +1,4 @@
-"""AC1Legacy::Vector3, and the three orders in which retail adds a dot product."""
+"""AC1Legacy::Vector3, and the orders in which movement adds a dot product."""
 
 from __future__ import annotations
 
@@ -126,11 +126,6 @@ def scaled(factor: float, v: Vector3) -> Vector3:
 def dot_x(a: Vector3, b: Vector3) -> float:
     """Dot product in registers, x term last (01 1.2)."""
     return (a.y * b.y + a.z * b.z) + a.x * b.x
-
-
-def dot_y(a: Vector3, b: Vector3) -> float:
-    """Dot product in registers, y term last (01 1.2)."""
-    return (a.x * b.x + a.z * b.z) + a.y * b.y
 
 
 def dot_z(a: Vector3, b: Vector3) -> float:

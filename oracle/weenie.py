@@ -15,6 +15,8 @@ class Weenie:
         What the game object is.
     can_bypass_move_restrictions : bool
         Whether housing restrictions do not apply to it.
+    id : int
+        Its object id, by which a house knows whom it admits (CanMoveInto, 08 1).
     """
 
     is_creature: bool = False
@@ -23,3 +25,4 @@ class Weenie:
     is_pklite: bool = False
     is_impenetrable: bool = False
     can_bypass_move_restrictions: bool = False
+    id: int = 0

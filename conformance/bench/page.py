@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING, Final
 
 from conformance.bench.machine import machine, versions
 from conformance.bench.tables import duration
+from conformance.files import write_text
 
 if TYPE_CHECKING:
     from collections.abc import Iterable, Iterator, Sequence
@@ -39,7 +40,7 @@ def write_page(path: Path, report: Report, command: str) -> None:
     """
     before, after = split_page(path)
     text = f"{before}{numbers(report, command)}\n{after}"
-    path.write_text(text, encoding="utf-8", newline="\n")
+    write_text(path, text)
 
 
 def split_page(path: Path) -> tuple[str, str]:

@@ -19,6 +19,7 @@ from conformance.bench.timing import clock, no_collection
 from conformance.candidates.engine_candidate import EngineCandidate
 from conformance.candidates.model_candidate import double, single
 from conformance.candidates.oracle_candidate import OracleCandidate
+from conformance.files import write_text
 from conformance.found import found_document
 from conformance.query import Query
 
@@ -193,8 +194,7 @@ def write_worst(folder: Path, worst: Worst, seed: int) -> Path:
         f"from the exact answer: {worst.measure} {worst.value:.3g}.",
         "tags": ["found", "worst"],
     }
-    folder.mkdir(parents=True, exist_ok=True)
     path = folder / f"{document['id']}.yaml"
     text = yaml.safe_dump(document, sort_keys=False, default_flow_style=None, width=_WIDTH)
-    path.write_text(text, encoding="utf-8", newline="\n")
+    write_text(path, text)
     return path

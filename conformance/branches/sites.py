@@ -100,6 +100,11 @@ def functions_of(source: str) -> dict[str, Function]:
     return {name: _read(name, node, majority) for name, node in _functions(tree, "")}
 
 
+def nodes_of(tree: ast.Module) -> Iterator[tuple[str, FunctionNode]]:
+    """Yield every function of a parsed module, with its qualified name."""
+    return _functions(tree, "")
+
+
 def _functions(node: ast.AST, prefix: str) -> Iterator[tuple[str, FunctionNode]]:
     for child in ast.iter_child_nodes(node):
         if isinstance(child, FunctionNode):

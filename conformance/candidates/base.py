@@ -2,9 +2,11 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Protocol
+from typing import TYPE_CHECKING, Protocol, runtime_checkable
 
 if TYPE_CHECKING:
+    from collections.abc import Sequence
+
     from conformance.query import Outcome, Query
 
 
@@ -23,3 +25,27 @@ class Candidate(Protocol):
     def answer(self, query: Query) -> Outcome:
         """Perform one operation."""
         ...
+
+
+@runtime_checkable
+class Remote(Protocol):
+    """A candidate in a process of its own: it works while retail is computed, and must be stopped."""
+
+    def ask_ahead(self, queries: Sequence[Query]) -> None:
+        """Send queries whose answers will be wanted next, in this order."""
+        ...
+
+    def close(self) -> tuple[str, ...]:
+        """Stop the process, and return what was wrong with how it stopped."""
+        ...
+
+
+def ask_ahead(candidate: Candidate, queries: Sequence[Query]) -> None:
+    """Let a candidate that works beside the suite begin with what it will be asked."""
+    if isinstance(candidate, Remote):
+        candidate.ask_ahead(queries)
+
+
+def close(candidate: Candidate) -> tuple[str, ...]:
+    """End what a candidate has started, and return what was wrong with how it ended."""
+    return candidate.close() if isinstance(candidate, Remote) else ()

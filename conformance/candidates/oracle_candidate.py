@@ -11,6 +11,7 @@ from conformance.candidates.oracle_ops import (
     gate_ops,
     math_ops,
     object_ops,
+    placement_ops,
     polygon_ops,
     state_ops,
     terrain_ops,
@@ -42,6 +43,7 @@ OPS: Final[dict[str, Callable[[Query], Fields]]] = {
     **terrain_ops.OPS,
     **cell_ops.OPS,
     **world_ops.OPS,
+    **placement_ops.OPS,
 }
 """Every operation that the oracle performs."""
 

@@ -20,6 +20,11 @@ BUILT_IN: Final = {
     "exact": "conformance.exact.candidate:ExactCandidate",
 }
 """Name, and what makes it: imported when its candidate is asked for, because some are slow to load."""
+COMMAND_PREFIX: Final = "cmd:"
+"""What the name of an engine in a process of its own begins with."""
+MODULE_PREFIX: Final = "mod:"
+"""What the name of a Python object of another package begins with."""
+_FOREIGN: Final = "conformance.candidates.foreign"
 EXTRAS: Final = {"exact": ("flint", "pip install 'retail-conformance[exact]'")}
 """What a candidate needs that comes with an extra: the module, and how to get it."""
 
@@ -42,7 +47,8 @@ class UnknownCandidateError(LookupError):
         self.known = known
         self.nearest: str | None = next(iter(get_close_matches(spec, known, n=1)), None)
         hint = f" Did you mean {self.nearest!r}?" if self.nearest else ""
-        super().__init__(f"unknown candidate {spec!r}.{hint} There are: {', '.join(known)}")
+        others = "cmd:COMMAND and mod:PACKAGE.MODULE:FACTORY for engines of your own"
+        super().__init__(f"unknown candidate {spec!r}.{hint} There are: {', '.join(known)}; {others}")
 
 
 class MissingExtraError(ImportError):
@@ -52,12 +58,16 @@ class MissingExtraError(ImportError):
         super().__init__(f"candidate {spec!r} needs {module}: {remedy}", name=module)
 
 
+class BadCandidateError(ValueError):
+    """An engine's command cannot be read, or its factory cannot be imported or called."""
+
+
 def candidate_names() -> tuple[str, ...]:
-    """Return every name that `make_candidate` accepts."""
+    """Return every name that `make_candidate` accepts, engines of other packages and processes excepted."""
     return (*BUILT_IN, *_bug_candidates())
 
 
-def make_candidate(spec: str) -> Candidate:
+def make_candidate(spec: str, *, read_timeout: float | None = None) -> Candidate:
     """Make a candidate.
 
     Parameters
@@ -65,7 +75,10 @@ def make_candidate(spec: str) -> Candidate:
     spec : str
         ``engine``; ``oracle``, or the same with other numbers: ``single`` (every operation rounded to
         float32), ``double`` (no store rounded), ``exact`` (nothing rounded); ``bug:NAME`` for the oracle
-        with one mistake.
+        with one mistake; ``cmd:COMMAND`` for an engine in a process of its own, which is started when it is
+        asked; ``mod:PACKAGE.MODULE:FACTORY`` for a Python object.
+    read_timeout : float or None
+        Seconds within which an engine in a process must reply; None: as long as usual.
 
     Raises
     ------
@@ -73,8 +86,13 @@ def make_candidate(spec: str) -> Candidate:
         If there is no such candidate.
     MissingExtraError
         If it needs an extra that is not installed.
+    BadCandidateError
+        If it is a command that cannot be read, or a factory that cannot be imported or called.
     """
     check_extra(spec)
+    if spec.startswith((COMMAND_PREFIX, MODULE_PREFIX)):
+        foreign: Candidate = import_module(_FOREIGN).make_foreign(spec, read_timeout)
+        return foreign
     if spec in BUILT_IN:
         module, name = BUILT_IN[spec].split(":")
         make: Callable[[], Candidate] = getattr(import_module(module), name)
@@ -83,6 +101,15 @@ def make_candidate(spec: str) -> Candidate:
     if spec in bugs:
         return bugs[spec]
     raise UnknownCandidateError(spec, candidate_names())
+
+
+def check_spec(spec: str) -> None:
+    """Raise what `make_candidate` would raise, as far as can be told without making the candidate."""
+    check_extra(spec)
+    if spec.startswith((COMMAND_PREFIX, MODULE_PREFIX)):
+        import_module(_FOREIGN).check_foreign(spec)
+    elif spec not in candidate_names():
+        raise UnknownCandidateError(spec, candidate_names())
 
 
 def check_extra(spec: str) -> None:

@@ -28,7 +28,8 @@ _METHOD: Final = """\
 Implementations take turns at the same new random queries in one process; answers are compared before times
 are believed; the median of the rounds' ratios is reported, with quartiles. Ctrl-C keeps what there is.
 
-Exit codes: 0 all was measured, 1 answers differ where they must not, 2 usage, 4 nothing was measured.
+Exit codes: 0 all was measured, 1 answers differ where they must not, 2 usage, 4 nothing was measured,
+5 the results could not be written, 130 Ctrl-C broke it off.
 """
 _PIPED_WIDTH: Final = 170
 """Columns of the table where no terminal says how wide it is."""
@@ -78,10 +79,12 @@ def run(args: argparse.Namespace) -> int:
     console = make_console()
     if not console.is_terminal:
         console.width = _PIPED_WIDTH
-    _measure(settings, report, console)
+    whole = _measure(settings, report, console)
     _write(args, report, console)
     if report.failures:
         return exit_codes.FAILURES
+    if not whole:
+        return exit_codes.BROKEN_OFF
     return exit_codes.NOTHING_RAN if report.empty else exit_codes.OK
 
 
@@ -124,31 +127,35 @@ def _check_outputs(args: argparse.Namespace) -> None:
         raise UsageError(str(error)) from error
 
 
-def _measure(settings: Settings, report: Report, console: Console) -> None:
+def _measure(settings: Settings, report: Report, console: Console) -> bool:
+    """Measure and print; tell whether all was measured that was asked for."""
     from conformance.bench.benchmark import measure
     from conformance.bench.tables import show
     from conformance.console import Progress
     from conformance.scenes.importers.dump_json import DumpError
 
+    whole = True
     try:
         with Progress() as progress:
             measure(settings, report, progress.say)
     except KeyboardInterrupt:
+        whole = False
         report.omit("everything after that", "the run was broken off")
     except DumpError as error:
         raise UsageError(str(error)) from error
     show(console, report)
+    return whole
 
 
 def _write(args: argparse.Namespace, report: Report, console: Console) -> None:
     from conformance.bench.page import PageError, write_page
     from conformance.bench.plots import NoPlotsError, write_plots
     from conformance.bench.precision import write_worst
+    from conformance.files import write_text
 
     try:
         if args.json is not None:
-            args.json.parent.mkdir(parents=True, exist_ok=True)
-            args.json.write_text(report.to_json(), encoding="utf-8", newline="\n")
+            write_text(args.json, report.to_json())
         if args.page is not None:
             write_page(args.page, report, _command(args))
         for worst in report.worst if args.worst is not None else ():
@@ -156,8 +163,6 @@ def _write(args: argparse.Namespace, report: Report, console: Console) -> None:
         if args.plots is not None:
             for path in write_plots(report, args.plots):
                 console.print(f"drawn: {path}")
-    except OSError as error:
-        raise UsageError(f"cannot write: {error}") from error
     except (NoPlotsError, PageError) as error:
         raise UsageError(str(error)) from error
 

@@ -55,10 +55,12 @@ def run(args: argparse.Namespace) -> int:
             console.print(f"  {bug.mistake}")
             console.print(f"  retail: {bug.retail}")
         return exit_codes.OK
-    records = _hunt(bugs, args.draws)
+    records, whole = _hunt(bugs, args.draws)
+    _print(records, markdown=args.markdown)
     if args.json is not None:
         _write_json(args.json, records)
-    _print(records, markdown=args.markdown)
+    if not whole:
+        return exit_codes.BROKEN_OFF
     return exit_codes.FAILURES if any(record.unexplained for record in records) else exit_codes.OK
 
 
@@ -83,26 +85,28 @@ def _chosen(names: list[str]) -> list[KnownBug]:
     return [known[name] for name in wanted] if wanted else list(known.values())
 
 
-def _hunt(bugs: list[KnownBug], draws: int) -> list[Record]:
-    from conformance.bug_hunt import hunt
-    from conformance.console import Progress
+def _hunt(bugs: list[KnownBug], draws: int) -> tuple[list[Record], bool]:
+    """Return what is known of each bug, and whether all was asked."""
+    from conformance.bug_hunt import HuntBrokenOffError, hunt
+    from conformance.console import Progress, make_console
     from conformance.loader import Vary, load_paths
 
     loaded = load_paths(vary=Vary(poses=0))
     if loaded.problems:
         raise UsageError(f"{len(loaded.problems)} built-in cases are wrong: see `conformance lint`")
-    with Progress() as progress:
-        return hunt(bugs, loaded.cases, draws=draws, progress=progress)
+    try:
+        with Progress() as progress:
+            return hunt(bugs, loaded.cases, draws=draws, progress=progress), True
+    except HuntBrokenOffError as error:
+        make_console(stderr=True).print("broken off: what follows was found so far", style="yellow")
+        return error.records, False
 
 
 def _write_json(path: Path, records: list[Record]) -> None:
+    from conformance.files import write_text
     from conformance.report.kills import as_json
 
-    text = json.dumps(as_json(records), indent=2) + "\n"
-    try:
-        path.write_text(text, encoding="utf-8", newline="\n")
-    except OSError as error:
-        raise UsageError(f"cannot write {path}: {error}") from error
+    write_text(path, json.dumps(as_json(records), indent=2) + "\n")
 
 
 def _print(records: list[Record], *, markdown: bool) -> None:

@@ -68,13 +68,16 @@ def run(args: argparse.Namespace) -> int:
 
     if args.output is not None and args.draws:
         raise UsageError("the page is about cases: --output does not go with --draws")
-    measurement = _measure(_cases(args.poses), args.draws)
+    measurement, whole = _measure(_cases(args.poses), args.draws)
     found = gaps(measurement.reached, REASONS)
-    mistakes = _mistakes(measurement)
+    mistakes = _mistakes(measurement) if whole else []
     console = make_console()
     _print(console, measurement, found, args.gaps)
     for mistake in mistakes:
         console.print(mistake, style="red")
+    if not whole:
+        console.print("broken off: this is what was reached so far; no page is written", style="yellow")
+        return exit_codes.BROKEN_OFF
     if args.output is not None:
         _write(args.output, measurement, found)
     if not measurement.queries:
@@ -99,12 +102,22 @@ def _cases(poses: int | None) -> tuple[Case, ...]:
     return loaded.cases
 
 
-def _measure(cases: tuple[Case, ...], draws: int) -> Measurement:
+def _measure(cases: tuple[Case, ...], draws: int) -> tuple[Measurement, bool]:
+    """Return what was reached, and whether all was asked."""
     from conformance.branches.measure import CoverageMissingError, measure
     from conformance.bug_hunt import FAMILIES, draw_queries
     from conformance.console import Progress
 
+    whole = True
+
     def asking(ask: Callable[[Query], None]) -> None:
+        nonlocal whole
+        try:
+            ask_all(ask)
+        except KeyboardInterrupt:
+            whole = False
+
+    def ask_all(ask: Callable[[Query], None]) -> None:
         for number, case in enumerate(cases, start=1):
             progress.say(f"cases: {number} of {len(cases)}")
             for query in case.queries:
@@ -115,7 +128,7 @@ def _measure(cases: tuple[Case, ...], draws: int) -> Measurement:
 
     with Progress() as progress:
         try:
-            return measure(asking)
+            return measure(asking), whole
         except CoverageMissingError as error:
             raise UsageError(str(error)) from error
 
@@ -151,9 +164,7 @@ def _print(console: Console, measurement: Measurement, found: list[Gap], which: 
 
 def _write(path: Path, measurement: Measurement, found: list[Gap]) -> None:
     from conformance.branches.measure import INSTRUMENTS
+    from conformance.files import write_text
     from conformance.report.coverage import page
 
-    try:
-        path.write_text(page(measurement, found, INSTRUMENTS), encoding="utf-8", newline="\n")
-    except OSError as error:
-        raise UsageError(f"cannot write {path}: {error}") from error
+    write_text(path, page(measurement, found, INSTRUMENTS))

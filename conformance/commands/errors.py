@@ -52,10 +52,11 @@ def run(args: argparse.Namespace) -> int:
     from conformance.console import make_console
     from conformance.report.errors import error_table, survey_lines
 
-    survey = _survey()
+    survey, whole = _survey(), True
     try:
         _ask(survey, args)
     except KeyboardInterrupt:
+        whole = False
         make_console(stderr=True).print("broken off: what follows is measured so far", style="yellow")
     console = make_console()
     if not console.is_terminal:
@@ -63,10 +64,9 @@ def run(args: argparse.Namespace) -> int:
     console.print(error_table(survey))
     for line in survey_lines(survey):
         console.print(line)
-    try:
-        _write(survey, args)
-    except OSError as error:
-        raise UsageError(f"cannot write: {error}") from error
+    _write(survey, args)
+    if not whole:
+        return exit_codes.BROKEN_OFF
     return exit_codes.OK if survey.asked else exit_codes.NOTHING_RAN
 
 
@@ -127,13 +127,14 @@ def _recorded(files: list[Path]) -> Iterator[Query]:
 
 def _write(survey: Survey, args: argparse.Namespace) -> None:
     from conformance.compare import differences
+    from conformance.files import write_text
     from conformance.found import write_found
     from conformance.query import Result
     from conformance.report.errors import as_json
 
     if args.json is not None:
         text = json.dumps(as_json(survey), indent=2) + "\n"
-        args.json.write_text(text, encoding="utf-8", newline="\n")
+        write_text(args.json, text)
     if args.save is None:
         return
     for name, summary in survey.summaries.items():

@@ -2,11 +2,11 @@
 
 from __future__ import annotations
 
+import argparse
+import math
 from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
-    import argparse
-
     from conformance.candidates.base import Candidate
 
 
@@ -20,16 +20,36 @@ def add_candidate_option(parser: argparse.ArgumentParser, *, default: str) -> No
         "--candidate",
         default=default,
         metavar="SPEC",
-        help="oracle, engine, single, double, exact or bug:NAME "
-        "(default: %(default)s; `conformance bugs` lists the bugs)",
+        help="oracle, engine, single, double, exact, bug:NAME (`conformance bugs` lists them), "
+        '"cmd:./my-engine --flag" for an engine that speaks protocol v1, mod:package.module:factory for a '
+        "Python object (default: %(default)s)",
+    )
+    parser.add_argument(
+        "--read-timeout",
+        type=positive_seconds,
+        metavar="SECONDS",
+        help="within which a cmd: engine must reply, or be started anew (default: 30)",
     )
 
 
 def candidate_from(args: argparse.Namespace) -> Candidate:
     """Make the candidate that ``--candidate`` names; raises `UsageError` if it cannot be made."""
-    from conformance.candidates.registry import MissingExtraError, UnknownCandidateError, make_candidate
+    from conformance.candidates.registry import (
+        BadCandidateError,
+        MissingExtraError,
+        UnknownCandidateError,
+        make_candidate,
+    )
 
     try:
-        return make_candidate(args.candidate)
-    except (UnknownCandidateError, MissingExtraError) as error:
+        return make_candidate(args.candidate, read_timeout=args.read_timeout)
+    except (BadCandidateError, MissingExtraError, UnknownCandidateError) as error:
         raise UsageError(str(error)) from error
+
+
+def positive_seconds(text: str) -> float:
+    """Read a time, which may not be endless: an engine that hangs must be noticed."""
+    seconds = float(text)
+    if not (0.0 < seconds < math.inf):
+        raise argparse.ArgumentTypeError(f"found {text}, expected seconds, more than 0")
+    return seconds

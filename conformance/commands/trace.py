@@ -13,7 +13,7 @@ from conformance.commands.options import UsageError, add_candidate_option, candi
 if TYPE_CHECKING:
     from collections.abc import Collection
 
-    from conformance.case import Case
+    from conformance.case import Case, Vary
     from conformance.query import Outcome, Query
     from conformance.traced import Traceable
 
@@ -96,13 +96,13 @@ def _traceable(args: argparse.Namespace) -> Traceable:
     return candidate
 
 
-def find_case(text: str) -> Case:
+def find_case(text: str, vary: Vary | None = None) -> Case:
     """Return the case ``CASE-ID`` or ``FILE::ID``; raises `UsageError` if there is none."""
-    from conformance.loader import NoCasesError, load_paths
+    from conformance.loader import AS_WRITTEN, NoCasesError, load_paths
 
     file, _, case_id = text.rpartition(_SEPARATOR)
     try:
-        loaded = load_paths([Path(file)] if file else ())
+        loaded = load_paths([Path(file)] if file else (), vary or AS_WRITTEN)
     except (NoCasesError, OSError) as error:
         raise UsageError(str(error)) from error
     cases = {case.id: case for case in loaded.cases}

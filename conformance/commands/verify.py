@@ -15,7 +15,10 @@ if TYPE_CHECKING:
 
     from rich.console import Console
 
+    from conformance.candidates.base import Candidate
     from conformance.compare import Difference
+    from conformance.console import Progress
+    from conformance.vector_library import Library
     from conformance.verification import Failure, Tally
 
 HELP: Final = "compare a candidate with what retail answered, as recorded in vector files"
@@ -53,7 +56,7 @@ def run(args: argparse.Namespace) -> int:
     from conformance.console import make_console
 
     paths = _vector_files(args.files)
-    results, total = _verify(paths, args)
+    results, total, whole = _verify(paths, args)
     if args.json:
         _print_json(results, total, args.candidate)
     else:
@@ -64,8 +67,12 @@ def run(args: argparse.Namespace) -> int:
         console.print(f"total: {total.summary()}", style=style)
         if not total.compared:
             console.print("nothing was compared", style="yellow")
+    if not whole:
+        sys.stderr.write("conformance verify: broken off; this is what was compared so far\n")
     if total.failed:
         return exit_codes.FAILURES
+    if not whole:
+        return exit_codes.BROKEN_OFF
     return exit_codes.OK if total.compared else exit_codes.NOTHING_RAN
 
 
@@ -84,29 +91,54 @@ def _vector_files(given: list[Path]) -> list[Path]:
     return paths
 
 
-def _verify(paths: list[Path], args: argparse.Namespace) -> tuple[list[tuple[Path, Tally]], Tally]:
+def _verify(paths: list[Path], args: argparse.Namespace) -> tuple[list[tuple[Path, Tally]], Tally, bool]:
+    """Return what came of each file and of all of them, and whether all were read to their end."""
+    from conformance.candidates.base import close
     from conformance.console import Progress
     from conformance.vector_library import Library
-    from conformance.verification import Failure, Tally, verify_file
+    from conformance.verification import Failure, Tally
 
     candidate = candidate_from(args)
     libraries: dict[Path, Library] = {}
     results: list[tuple[Path, Tally]] = []
+    whole = True
+    try:
+        with Progress() as progress:
+            for path in paths:
+                library = libraries.setdefault(path.parent, Library(path.parent))
+                results.append((path, Tally()))
+                _verify_file(*results[-1], candidate, library, args, progress)
+    except KeyboardInterrupt:
+        whole = False
+    wrong = [
+        (folder, [Failure(error.line, None, error=str(error)) for error in library.errors])
+        for folder, library in libraries.items()
+    ]
+    stopping = [Failure(None, None, error=complaint) for complaint in close(candidate)]
+    for where, failures in [*wrong, (Path(args.candidate), stopping)]:
+        if failures:
+            results.append((where, Tally(failed=len(failures), failures=failures)))
     total = Tally()
-    with Progress() as progress:
-        for path in paths:
-            library = libraries.setdefault(path.parent, Library(path.parent))
-            tally = verify_file(path, candidate, library, only=args.id, progress=progress)
-            results.append((path, tally))
-            total.add(tally)
-    for folder, library in libraries.items():
-        if library.errors:
-            tally = Tally()
-            for error in library.errors:
-                tally.fail(Failure(error.line, None, error=str(error)))
-            results.append((folder, tally))
-            total.add(tally)
-    return results, total
+    for _, tally in results:
+        total.add(tally)
+    return results, total, whole
+
+
+def _verify_file(
+    path: Path,
+    tally: Tally,
+    candidate: Candidate,
+    library: Library,
+    args: argparse.Namespace,
+    progress: Progress,
+) -> None:
+    """Verify one file; that it cannot be read is a failure of its own, and the others go on."""
+    from conformance.verification import Failure, verify_file
+
+    try:
+        verify_file(path, candidate, library, only=args.id, progress=progress, tally=tally)
+    except OSError as error:
+        tally.fail(Failure(None, None, error=f"{path}: {error.strerror or error}"))
 
 
 def _print_file(console: Console, path: Path, tally: Tally, args: argparse.Namespace) -> None:
@@ -120,7 +152,7 @@ def _print_file(console: Console, path: Path, tally: Tally, args: argparse.Names
 
 
 def _explain(path: Path, failure: Failure, candidate: str) -> str:
-    from conformance.report.text import render_failure
+    from conformance.report.text import quoted_spec, render_failure
 
     if failure.record is None:
         return f"  {failure.error}"
@@ -132,7 +164,8 @@ def _explain(path: Path, failure: Failure, candidate: str) -> str:
         differences=failure.differences,
         candidate=candidate,
         query=failure.record.query,
-        rerun=f"conformance verify {quoted(path)} --id {failure.record.id} --candidate {candidate}",
+        rerun=f"conformance verify {quoted(path)} --id {failure.record.id} --candidate "
+        + quoted_spec(candidate),
     )
 
 

@@ -15,7 +15,7 @@ if TYPE_CHECKING:
     from conformance.query import Query
     from conformance.shapes import Kind
 
-__all__ = ["render_differences", "render_failure", "scene_line", "summary_line"]
+__all__ = ["quoted_spec", "render_differences", "render_failure", "scene_line", "summary_line"]
 
 
 def summary_line(difference: Difference, candidate: str, *, retail: str = "retail") -> str:
@@ -27,6 +27,13 @@ def summary_line(difference: Difference, candidate: str, *, retail: str = "retai
     given = format_value(difference.kind, difference.candidate)
     values = f"{difference.name}: {retail} {expected}, {candidate} {given}"
     return ", ".join([values, *_remarks(difference)])
+
+
+def quoted_spec(spec: str) -> str:
+    """Return a candidate's name as one argument of a command, in the shells of every platform."""
+    if not any(character in spec for character in " '\"\\;&|<>$*?()"):
+        return spec
+    return '"{}"'.format(spec.replace('"', '\\"'))
 
 
 def render_failure(

@@ -74,8 +74,8 @@ def _shifted(key: str, value: Any, shift: Shift) -> Any:
         return [shifted_id(cell, shift) for cell in value]
     if key == "block":
         return shifted_block(value, shift)
-    if key == "shadow":
-        return {str(shifted_id(int(cell), shift)): ids for cell, ids in value.items()}
+    if key in {"shadow", "restrictions"}:
+        return {str(shifted_id(int(cell), shift)): held for cell, held in value.items()}
     if key == "cells":
         return [dict(_shifted_cell(cell, shift)) for cell in value]
     if key in {"contact", "last_known", "seed", "world", "body", "object"}:

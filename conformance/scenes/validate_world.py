@@ -10,7 +10,7 @@ from conformance.scenes.validate import geometry_errors, pose_errors
 from conformance.scenes.validate_numbers import number_errors, show
 from conformance.scenes.validate_objects import object_errors, shadow_errors
 from conformance.scenes.validate_polygons import polygon_errors
-from conformance.scenes.world_model import VERTEX_COUNT, is_interior
+from conformance.scenes.world_model import SIDE_CELLS, VERTEX_COUNT, is_interior
 from oracle.constants import BLOCK_EDGE, CELL_EDGE, EPS
 
 if TYPE_CHECKING:
@@ -28,6 +28,10 @@ BLOCKS: Final = range(255)
 TERRAIN_WORDS: Final = range(1 << 16)
 BLOCK_CELLS: Final = int(BLOCK_EDGE // CELL_EDGE)
 """Land cells along a landblock's edge."""
+DETAILS: Final = (SIDE_CELLS, 4, 2, 1)
+"""Cells along the edge of a landblock, by its distance from the viewer (10 4.1)."""
+LAND_CELLS: Final = range(1, SIDE_CELLS * SIDE_CELLS + 1)
+"""Low words of land cells (10 1.)."""
 _BYTE: Final = 0xFF
 
 
@@ -62,6 +66,7 @@ def arrangement_errors(world: World) -> Iterator[SceneError]:
     yield from _cell_errors(world.cells)
     yield from _building_errors(world)
     yield from object_errors(world)
+    yield from _restriction_errors(world)
 
 
 def _block_errors(blocks: Iterable[LandBlock]) -> Iterator[SceneError]:
@@ -75,6 +80,9 @@ def _block_errors(blocks: Iterable[LandBlock]) -> Iterator[SceneError]:
         if block.block in ids:
             yield SceneError(f"{path}.block", f"0x{block.block:04X} twice", "each landblock once")
         ids.add(block.block)
+        if block.side_cell_count not in DETAILS:
+            expected = f"one of {', '.join(map(str, DETAILS))}"
+            yield SceneError(f"{path}.side_cell_count", repr(block.side_cell_count), expected)
         for key, values in (("heights", block.heights), ("terrain", block.terrain)):
             if len(values) != VERTEX_COUNT and (values or key == "heights"):
                 yield SceneError(f"{path}.{key}", f"{len(values)} numbers", f"{VERTEX_COUNT} numbers")
@@ -127,10 +135,9 @@ def _portal_errors(cell: InteriorCell, path: str) -> Iterator[SceneError]:
 
 
 def _building_errors(world: World) -> Iterator[SceneError]:
-    """Yield what is wrong with buildings: retail keeps one a land cell, and none outside the loaded land."""
+    """Yield what is wrong with buildings; one that its file lists in another landblock may be anywhere."""
     portals = {cell.id: len(cell.portals) for cell in world.cells}
     blocks = {block.block for block in world.landblocks}
-    taken: set[tuple[int, int]] = set()
     for n, building in enumerate(world.buildings):
         path = f"buildings[{n}]"
         wrong = list(pose_errors(building.pose, f"{path}.pose"))
@@ -139,16 +146,24 @@ def _building_errors(world: World) -> Iterator[SceneError]:
             continue
         place = land_cell(building)
         block = (place[0] // BLOCK_CELLS << 8) + place[1] // BLOCK_CELLS
-        if block not in blocks:
+        if building.block is None and block not in blocks:
             found = f"an origin {show(building.pose.origin)} in no loaded landblock"
             yield SceneError(f"{path}.pose.origin", found, "an origin on loaded land")
-        elif place in taken:
-            yield SceneError(f"{path}.pose.origin", "a second building in one land cell", "one a land cell")
-        taken.add(place)
+        elif building.block is not None and building.block not in blocks:
+            yield SceneError(f"{path}.block", f"0x{building.block:04X}", "a loaded landblock")
         for k, (cell, portal) in enumerate(building.portals):
             if cell in portals and portal >= portals[cell]:
                 found = f"portal {portal} of 0x{cell:08X}"
                 yield SceneError(f"{path}.portals[{k}]", found, f"one of its {portals[cell]} portals")
+
+
+def _restriction_errors(world: World) -> Iterator[SceneError]:
+    cells = {cell.id for cell in world.cells}
+    blocks = {block.block for block in world.landblocks}
+    for cell in world.restrictions:
+        on_land = cell >> 16 in blocks and cell & 0xFFFF in LAND_CELLS
+        if not on_land and cell not in cells:
+            yield SceneError(f"restrictions[{cell}]", f"the cell 0x{cell:08X}", "a cell of this world")
 
 
 def land_cell(building: Building) -> tuple[int, int]:
@@ -169,7 +184,8 @@ def _geometries(world: World) -> Iterator[tuple[Geometry, str]]:
     for n, cell in enumerate(world.cells):
         yield cell.geometry, f"cells[{n}].geometry"
     for n, building in enumerate(world.buildings):
-        yield building.geometry, f"buildings[{n}].geometry"
+        if building.geometry is not None:
+            yield building.geometry, f"buildings[{n}].geometry"
     for n, thing in enumerate(world.objects):
         for k, part in enumerate(thing.parts):
             if part.geometry is not None:

@@ -13,8 +13,11 @@ from typing import TYPE_CHECKING, Any, Final
 if TYPE_CHECKING:
     from collections.abc import Iterator, Mapping
 
-    from conformance.scenes.model import Geometry, Pose, SphereData, Vec3
+    from conformance.scenes.model import Geometry, Pose, Vec3
+    from conformance.scenes.object_model import WorldObject
 
+SIDE_CELLS: Final = 8
+"""Land cells along the edge of a landblock at full detail (10 1.)."""
 SIDE_VERTICES: Final = 9
 """Height points along a landblock's edge (10 1.)."""
 VERTEX_COUNT: Final = SIDE_VERTICES * SIDE_VERTICES
@@ -40,17 +43,22 @@ class LandBlock:
         z of the 81 vertices in metres; index 9 * i + j with i from west to east and j from south to north.
     terrain : tuple of int
         The 81 terrain words in the same order, or none: all 0.
+    side_cell_count : int
+        Cells along an edge: 8, or less for a block far from the viewer, which nobody collides with.
     """
 
     block: int
     heights: tuple[float, ...]
     terrain: tuple[int, ...] = ()
+    side_cell_count: int = SIDE_CELLS
 
     def to_record(self) -> dict[str, Any]:
         """Write one of a world's landblocks."""
         record: dict[str, Any] = {"block": self.block, "heights": list(self.heights)}
         if self.terrain:
             record["terrain"] = list(self.terrain)
+        if self.side_cell_count != SIDE_CELLS:
+            record["side_cell_count"] = self.side_cell_count
         return record
 
 
@@ -87,13 +95,22 @@ class Portal:
 
 @dataclass(frozen=True, slots=True)
 class InteriorCell:
-    """A loaded interior cell of a world; `stab` are the cells seen from it, in order."""
+    """A loaded interior cell of a world.
+
+    Attributes
+    ----------
+    stab : tuple of int
+        The cells seen from it, in order.
+    portal_array : bool
+        False: retail's missing array, with which no point is in the cell (09 4.1).
+    """
 
     id: int
     pose: Pose
     geometry: Geometry
     portals: tuple[Portal, ...] = ()
     stab: tuple[int, ...] = ()
+    portal_array: bool = True
 
     def to_record(self) -> dict[str, Any]:
         """Write one of a world's cells."""
@@ -101,7 +118,7 @@ class InteriorCell:
             "id": self.id,
             "pose": self.pose.to_record(),
             "geometry": self.geometry.name,
-            "portals": [portal.to_record() for portal in self.portals],
+            "portals": [portal.to_record() for portal in self.portals] if self.portal_array else None,
             "stab": list(self.stab),
         }
 
@@ -114,102 +131,50 @@ class Building:
     ----------
     pose : Pose
         Where its shell stands; the land cell that holds its origin holds the building.
-    geometry : Geometry
-        The shell, part 0.
+    geometry : Geometry or None
+        The shell, part 0; None: it has no part array.
     portals : tuple of (int, int)
         The cell behind each door, and the index of the portal in that cell.
+    block : int or None
+        The landblock whose file lists it; None: the one that its origin is in. In another one retail finds
+        no land cell for it and drops it (09 3.7).
     """
 
     pose: Pose
-    geometry: Geometry
+    geometry: Geometry | None
     portals: tuple[tuple[int, int], ...] = ()
+    block: int | None = None
 
     def to_record(self) -> dict[str, Any]:
         """Write one of a world's buildings."""
-        return {
+        record: dict[str, Any] = {
             "pose": self.pose.to_record(),
-            "geometry": self.geometry.name,
+            "geometry": None if self.geometry is None else self.geometry.name,
             "portals": [{"other": cell, "other_portal": portal} for cell, portal in self.portals],
         }
-
-
-@dataclass(frozen=True, slots=True)
-class Part:
-    """A part of an object; pose and scale are the object's where they are None."""
-
-    geometry: Geometry | None
-    pose: Pose | None = None
-    scale: float | None = None
-
-    def to_record(self) -> dict[str, Any]:
-        """Write one of an object's parts."""
-        record: dict[str, Any] = {"geometry": None if self.geometry is None else self.geometry.name}
-        if self.pose is not None:
-            record["pose"] = self.pose.to_record()
-        if self.scale is not None:
-            record["scale"] = self.scale
+        if self.block is not None:
+            record["block"] = self.block
         return record
 
 
 @dataclass(frozen=True, slots=True)
-class WorldObject:
-    """An object that movers collide with (08).
+class Restriction:
+    """Who may enter a cell (09 3.1).
 
     Attributes
     ----------
-    id : int
-        Its own; a mover with the same id passes it.
-    pose : Pose
-        The cell of the pose is the object's own cell.
-    scale : float
-        Of spheres and cylinders.
-    state : int
-        Bits of PhysicsState.
-    weenie : tuple of str or None
-        Flags of its weenie by name; None: it has none.
-    parts : tuple of Part
-        BSP shapes.
-    cylspheres : tuple of (float, float, float, float, float)
-        Low point, radius, height; object space, unscaled metres.
-    spheres : tuple of SphereData
-        Object space, unscaled metres.
-    parent : bool
-        It hangs on another object.
-    part_array : bool
-        False: it has no part array, so it collides with nothing.
+    admits : tuple of int
+        The ids of those players who may.
+    known : bool
+        False: the restriction object, or its game object, is not there, and no player may.
     """
 
-    id: int
-    pose: Pose
-    scale: float = 1.0
-    state: int = 0
-    weenie: tuple[str, ...] | None = None
-    parts: tuple[Part, ...] = ()
-    cylspheres: tuple[tuple[float, float, float, float, float], ...] = ()
-    spheres: tuple[SphereData, ...] = ()
-    parent: bool = False
-    part_array: bool = True
+    admits: tuple[int, ...] = ()
+    known: bool = True
 
     def to_record(self) -> dict[str, Any]:
-        """Write the OBJECT block of a vector record."""
-        record: dict[str, Any] = {
-            "id": self.id,
-            "pose": self.pose.to_record(),
-            "scale": self.scale,
-            "state": self.state,
-        }
-        if self.weenie is not None:
-            record["weenie"] = dict.fromkeys(self.weenie, 1)
-        if self.parts:
-            record["parts"] = [part.to_record() for part in self.parts]
-        for key in ("cylspheres", "spheres"):
-            if shapes := getattr(self, key):
-                record[key] = [list(shape) for shape in shapes]
-        if self.parent:
-            record["parent"] = 1
-        if not self.part_array:
-            record["no_part_array"] = 1
-        return record
+        """Write one of a world's restrictions."""
+        return {"object": int(self.known), "admits": list(self.admits)}
 
 
 @dataclass(frozen=True, slots=True)
@@ -224,6 +189,8 @@ class World:
         Everything that is loaded.
     shadow : mapping of int to tuple of int
         The ids of the objects registered in a cell, land cells included, in the order of testing.
+    restrictions : mapping of int to Restriction
+        The cells that not everyone may enter, land cells included.
     """
 
     name: str
@@ -232,10 +199,11 @@ class World:
     buildings: tuple[Building, ...] = ()
     objects: tuple[WorldObject, ...] = ()
     shadow: Mapping[int, tuple[int, ...]] = field(default_factory=lambda: MappingProxyType({}))
+    restrictions: Mapping[int, Restriction] = field(default_factory=lambda: MappingProxyType({}))
 
     def to_record(self) -> dict[str, Any]:
-        """Write the WORLD block; the keys of `shadow` are texts, as JSON's are."""
-        return {
+        """Write the WORLD block; the keys of `shadow` and `restrictions` are texts, as JSON's are."""
+        record: dict[str, Any] = {
             "kind": "world",
             "name": self.name,
             "landblocks": [block.to_record() for block in self.landblocks],
@@ -244,6 +212,9 @@ class World:
             "objects": [thing.to_record() for thing in self.objects],
             "shadow": {str(cell): list(ids) for cell, ids in self.shadow.items()},
         }
+        if self.restrictions:
+            record["restrictions"] = {str(cell): one.to_record() for cell, one in self.restrictions.items()}
+        return record
 
     def geometries(self) -> Iterator[Geometry]:
         """Yield every geometry once, in order of first use."""

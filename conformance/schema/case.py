@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from types import MappingProxyType
-from typing import TYPE_CHECKING, Annotated, Any, Final, Literal, TypeAlias
+from typing import TYPE_CHECKING, Annotated, Any, ClassVar, Final, Literal, TypeAlias
 
 from pydantic import AfterValidator, BeforeValidator, Field, StringConstraints
 
@@ -32,6 +32,8 @@ SCENE_KEYS: Final[Mapping[Needs, tuple[str, ...]]] = MappingProxyType(
     }
 )
 """The keys of a scene of which a query needs one."""
+MAX_POSES: Final = 10_000
+"""Most random poses of a case; all are made before the first is asked."""
 SLUG = r"[a-z0-9]+(-[a-z0-9]+)*"
 Slug = Annotated[str, StringConstraints(pattern=f"^{SLUG}$")]
 Text = Annotated[str, StringConstraints(min_length=1, strip_whitespace=True)]
@@ -48,13 +50,13 @@ def _citation(citation: str) -> str:
 class VaryModel(Strictly):
     """How a case is also run elsewhere in the world: moved rigidly to random poses."""
 
-    poses: Count
+    poses: Annotated[Count, Field(le=MAX_POSES)]
     seed: Count | None = Field(None, description="Of the random poses; without it the case's id decides.")
 
 
 def _vary(value: Any) -> Any:
     if value is False:
-        return VaryModel(poses=0, seed=None)
+        return VaryModel.model_validate({"poses": 0})
     if isinstance(value, VaryModel | dict):
         return value
     raise mistake(describe(value), "false, or a mapping with 'poses'")
@@ -67,6 +69,8 @@ Vary: TypeAlias = Annotated[
 
 class CaseModel(Strictly):
     """One case: a query in a scene, why it is asked, and what retail is known to answer."""
+
+    nullable: ClassVar = frozenset({"mover"})  # nobody, where a query asks about nobody
 
     id: Slug = Field(description="For life: lower-case words and numbers joined by '-'.")
     title: Text = Field(description="What the case shows, in a line.")

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import Annotated, Any, Final, TypeAlias
+from typing import Annotated, Any, Final, Literal, TypeAlias
 
 from pydantic import BeforeValidator, Field
 
@@ -63,6 +63,9 @@ class MoverModel(Strictly):
     id: Count | None = Field(None, description="Its own object id; an object with that id is not tested.")
     missile: Flag | None = None
     target_id: Count | None = Field(None, description="The object that a missile is aimed at.")
+    weenie: list[Literal["bypass"]] | None = Field(
+        None, description="Its game object, with 'bypass' above house restrictions; nothing without one."
+    )
 
 
 class SeededPlaneModel(Strictly):

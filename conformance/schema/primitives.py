@@ -13,7 +13,14 @@ from conformance.source import quoted
 Length = Annotated[Number, Field(gt=0)]
 Size2 = Annotated[tuple[Length, Length], Field(strict=False)]
 Size3 = Annotated[tuple[Length, Length, Length], Field(strict=False)]
-Tiles = Annotated[tuple[Annotated[int, Field(ge=1)], Annotated[int, Field(ge=1)]], Field(strict=False)]
+MAX_TILES = 64
+"""Most tiles of a floor in one direction: 4096 in all."""
+MAX_STEPS = 1000
+"""Most steps of a staircase."""
+MAX_SIDES = 255
+"""Most sides of a pillar, whose caps have as many corners: they are counted in a byte (02, 0)."""
+Tile = Annotated[int, Field(ge=1, le=MAX_TILES)]
+Tiles = Annotated[tuple[Tile, Tile], Field(strict=False)]
 Corners = Annotated[list[Vec3], Field(min_length=1)]
 
 PLACEMENT = ("at", "yaw")
@@ -100,7 +107,7 @@ class PillarModel(PlacedModel):
 
     radius: Length
     height: Length
-    sides: Annotated[int, Field(ge=3)] = 8
+    sides: Annotated[int, Field(ge=3, le=MAX_SIDES)] = 8
     capped: bool = True
 
 
@@ -128,7 +135,7 @@ class StairsModel(PlacedModel):
     width: Length
     rise: Length
     run: Length
-    count: Annotated[int, Field(ge=1)]
+    count: Annotated[int, Field(ge=1, le=MAX_STEPS)]
     solid: bool = False
 
 

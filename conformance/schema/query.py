@@ -14,6 +14,7 @@ from conformance.schema import (
     geometry_queries,
     math_queries,
     movement_queries,
+    own_queries,
     walk_queries,
     world_queries,
 )
@@ -36,8 +37,9 @@ def ops_of(model: type[QueryModel]) -> tuple[str, ...]:
 
 
 def _models(module: Any) -> list[type[QueryModel]]:
-    members = vars(module).values()
-    return [m for m in members if isinstance(m, type) and issubclass(m, QueryModel) and ops_of(m)]
+    """Return the models that a module defines, not those that it imports."""
+    members = [m for m in vars(module).values() if isinstance(m, type) and m.__module__ == module.__name__]
+    return [m for m in members if issubclass(m, QueryModel) and ops_of(m)]
 
 
 QUERY_MODELS: Final = (
@@ -46,6 +48,7 @@ QUERY_MODELS: Final = (
     *_models(movement_queries),
     *_models(walk_queries),
     *_models(world_queries),
+    *_models(own_queries),
 )
 
 MODEL_OF_OP: Final = {op: model for model in QUERY_MODELS for op in ops_of(model)}
@@ -60,9 +63,14 @@ def _check_kind(value: Any) -> Any:
     op, known = value["op"], OUTPUTS if "inputs" in value else MODEL_OF_OP
     if not isinstance(op, str) or op not in known:
         expected = "an op of FORMAT.md"
-        if op in OUTPUTS:
+        if isinstance(op, str) and op in OUTPUTS:
             expected = f"an op of {', '.join(sorted(MODEL_OF_OP))}, or 'inputs' with those of its record"
-        raise mistake(f"the op {op!r}", expected, nearest(str(op), known), at=("op",))
+        raise mistake(
+            f"the op {op!r}" if isinstance(op, str) else describe(op),
+            expected,
+            nearest(str(op), known),
+            at=("op",),
+        )
     return value
 
 

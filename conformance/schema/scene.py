@@ -16,6 +16,7 @@ from conformance.schema.world import (
     DoorwayModel,
     ObjectModel,
     PortalModel,
+    RestrictionModel,
     Stab,
     TerrainModel,
 )
@@ -23,7 +24,7 @@ from conformance.schema.world import (
 if TYPE_CHECKING:
     from collections.abc import Iterator
 
-WORLD_KEYS: Final = ("landblock", "terrain", "doorways", "buildings", "objects")
+WORLD_KEYS: Final = ("landblock", "terrain", "doorways", "buildings", "objects", "restrictions")
 """Keys of a scene that make it a world."""
 
 
@@ -60,6 +61,7 @@ class CellModel(Strictly):
         description="The cells its portals lead to; in a world each with its polygon.",
     )
     stab: Stab = Field(default_factory=list, description="The cells seen from it: a list, or 'all'.")
+    portal_array: bool = Field(True, description="false: the missing array, with which no point is in it.")
 
     @property
     def placed_portals(self) -> list[PortalModel]:
@@ -104,6 +106,7 @@ class SceneModel(Strictly):
     objects: list[ObjectModel] = Field(
         default_factory=list, description="In the order in which they are registered, so tested."
     )
+    restrictions: list[RestrictionModel] = Field(default_factory=list)
 
     @property
     def is_world(self) -> bool:
@@ -144,6 +147,10 @@ class SceneModel(Strictly):
             return self
         for index, cell in enumerate(self.cells or ()):
             at = ("cells", index)
+            if cell.portals and not cell.portal_array:
+                raise mistake(
+                    "portals in no array", "'portals', or 'portal_array: false'", at=(*at, "portals")
+                )
             if cell.statics:
                 raise mistake("'statics' in a world", "'objects' of the scene", at=(*at, "statics"))
             for number, portal in enumerate(cell.portals):

@@ -6,9 +6,18 @@ Numbers are decimals in the file; the value meant is the float32 nearest to the 
 from __future__ import annotations
 
 import math
-from typing import TYPE_CHECKING, Annotated, Any, Final, Literal, TypeAlias
+from typing import TYPE_CHECKING, Annotated, Any, ClassVar, Final, Literal, TypeAlias
 
-from pydantic import AfterValidator, BaseModel, BeforeValidator, ConfigDict, Field, Strict, WithJsonSchema
+from pydantic import (
+    AfterValidator,
+    BaseModel,
+    BeforeValidator,
+    ConfigDict,
+    Field,
+    Strict,
+    WithJsonSchema,
+    model_validator,
+)
 
 from conformance.floats import to_float32
 from conformance.schema.mistakes import mistake
@@ -59,9 +68,23 @@ INSERT_TYPES: Final = {"transition": 0, "placement": 1, "initial_placement": 2}
 
 
 class Strictly(BaseModel):
-    """A mapping of a case file: no other keys, no conversions between types."""
+    """A mapping of a case file: no other keys, no conversions between types.
+
+    A key that may be left out is not written with null: what is not there has no key. `nullable` names the
+    few where null means something else.
+    """
 
     model_config = ConfigDict(extra="forbid", strict=True, frozen=True, populate_by_name=False)
+    nullable: ClassVar[frozenset[str]] = frozenset()
+
+    @model_validator(mode="before")
+    @classmethod
+    def _no_nulls(cls, data: Any) -> Any:
+        for name, field in cls.model_fields.items() if isinstance(data, dict) else ():
+            key = field.alias or name
+            if key in data and data[key] is None and not field.is_required() and key not in cls.nullable:
+                raise mistake(describe(None), "a value, or no such key", at=(key,))
+        return data
 
 
 def _float32(value: float) -> float:
@@ -102,7 +125,8 @@ def _cell_id(value: int) -> int:
 
 Number: TypeAlias = Annotated[float, Strict(), AfterValidator(_float32)]
 """A float32; the unit is the field's."""
-Count: TypeAlias = Annotated[int, Strict(), Field(ge=0)]
+Count: TypeAlias = Annotated[int, Strict(), Field(ge=0, le=0xFFFF_FFFF)]
+"""An id, an index, or how many; 32 bits."""
 Vec3: TypeAlias = Annotated[tuple[Number, Number, Number], Field(strict=False)]
 """x, y, z."""
 Pair: TypeAlias = Annotated[tuple[Number, Number], Field(strict=False)]

@@ -2,17 +2,22 @@
 
 from __future__ import annotations
 
-from typing import Annotated, ClassVar, Final, Literal
+from typing import TYPE_CHECKING, Annotated, ClassVar, Final, Literal
 
 from pydantic import BeforeValidator, Field, WithJsonSchema, model_validator
 
+from conformance.effort import MAX_TICKS
 from conformance.schema.frames import PoseModel
 from conformance.schema.mistakes import mistake
 from conformance.schema.movement_queries import MoverQuery
 from conformance.schema.mover import SeededPlaneModel, Spheres
 from conformance.schema.query_base import Needs, QueryModel
-from conformance.schema.values import OBJECT_STATES, Flag, Number, Pair, Strictly, Vec3, named_bits
+from conformance.schema.values import OBJECT_STATES, Count, Flag, Number, Pair, Strictly, Vec3, named_bits
+from conformance.schema.weenies import Weenie
 from conformance.source import quoted
+
+if TYPE_CHECKING:
+    from collections.abc import Sequence
 
 TRANSIENT_STATES: Final = {"contact": 0x1, "on_walkable": 0x2, "sliding": 0x4, "active": 0x80}
 """Bits of a body's transient state by name (04 1.4); the others are retail's own bookkeeping."""
@@ -74,6 +79,12 @@ class InputModel(SegmentModel):
     quantum: Positive | None = Field(None, description="Seconds of each tick; without it the query's.")
 
 
+def _check_ticks(segments: Sequence[SegmentModel]) -> None:
+    total = sum(segment.count for segment in segments)
+    if total > MAX_TICKS:
+        raise mistake(f"{total} ticks", f"at most {MAX_TICKS}", at=("ticks",))
+
+
 class WalkQuery(MoverQuery):
     """Recorded moves, one transition after the other."""
 
@@ -81,6 +92,11 @@ class WalkQuery(MoverQuery):
     op: Literal["walk"]
     start: PoseModel
     ticks: Annotated[list[MoveModel], Field(min_length=1)]
+
+    @model_validator(mode="after")
+    def _few_ticks(self) -> WalkQuery:
+        _check_ticks(self.ticks)
+        return self
 
 
 class BodyModel(Strictly):
@@ -106,6 +122,8 @@ class BodyModel(Strictly):
     elasticity: Number | None = None
     movement_manager: Flag = Field(0, description="1: standing still never deactivates the body.")
     contact: SeededPlaneModel | None = Field(None, description="The plane that it stands on.")
+    id: Count | None = Field(None, description="Its object id, by which a house admits it.")
+    weenie: Weenie | None = Field(None, description="Its flags; nothing for a body without game object.")
 
 
 class BodyWalkQuery(QueryModel):
@@ -117,3 +135,8 @@ class BodyWalkQuery(QueryModel):
     start: PoseModel
     quantum: Positive = Field(description="Seconds of a tick.")
     ticks: Annotated[list[InputModel], Field(min_length=1)]
+
+    @model_validator(mode="after")
+    def _few_ticks(self) -> BodyWalkQuery:
+        _check_ticks(self.ticks)
+        return self

@@ -14,7 +14,6 @@ from pydantic import (
     model_validator,
 )
 
-from conformance.scenes.validate_objects import WEENIE_FLAGS
 from conformance.schema.frames import PoseModel
 from conformance.schema.geometry import GeometryModel
 from conformance.schema.mistakes import mistake
@@ -29,6 +28,7 @@ from conformance.schema.values import (
     Vec3,
     named_bits,
 )
+from conformance.schema.weenies import Weenie
 from conformance.source import describe, nearest, quoted
 
 OUTDOORS: Final = "outdoors"
@@ -58,14 +58,6 @@ def _ids_or_all(value: Any, handler: Any) -> Any:
             raise mistake(describe(value), f"'{ALL}', or a list of cell ids", nearest(value, [ALL]))
         return ALL
     return handler(value)
-
-
-def _weenie(value: Any) -> Any:
-    for index, flag in enumerate(value if isinstance(value, list) else ()):
-        if flag not in WEENIE_FLAGS:
-            expected = f"one of {quoted(WEENIE_FLAGS)}"
-            raise mistake(describe(flag), expected, nearest(str(flag), WEENIE_FLAGS), at=(index,))
-    return value
 
 
 BlockId: TypeAlias = Annotated[int, Strict(), AfterValidator(_block_id)]
@@ -128,6 +120,9 @@ class TerrainModel(Strictly):
     )
     map: Rows | None = Field(None, description="Nine rows as on a map: north first, each from west to east.")
     areas: list[AreaModel] = Field(default_factory=list, description="Terrain types; later ones win.")
+    side_cell_count: Literal[8, 4, 2, 1] = Field(
+        8, description="Less than 8: loaded with less detail, so nobody collides with it."
+    )
 
     @model_validator(mode="after")
     def _one_form(self) -> TerrainModel:
@@ -183,9 +178,12 @@ class BuildingModel(Strictly):
     """A building: its shell outdoors and the cells behind its doors."""
 
     pose: PoseModel
-    geometry: GeometryModel
+    geometry: GeometryModel | None = Field(description="null for a building without a shell.")
     portals: list[DoorOfBuilding] = Field(
         default_factory=list, description="A cell id: all its portals that lead outdoors."
+    )
+    landblock: BlockId | None = Field(
+        None, description="Whose file lists it; in another than its origin's retail drops the building."
     )
 
 
@@ -195,6 +193,9 @@ class PartModel(Strictly):
     geometry: GeometryModel | None
     pose: PoseModel | None = Field(None, description="Its own global pose; without it the object's.")
     scale: Annotated[Number, Field(gt=0)] | None = Field(None, description="Without it the object's.")
+    physics: bool = Field(True, description="false: without a physics tree; the geometry gives its box.")
+    drawing_sphere: Sphere | None = Field(None, description="Of a part without physics, in its own space.")
+    flat: bool = Field(False, description="true: always drawn as a flat picture.")
 
 
 class ObjectModel(Strictly):
@@ -204,7 +205,7 @@ class ObjectModel(Strictly):
     pose: PoseModel
     scale: Annotated[Number, Field(gt=0)] = 1.0
     state: ObjectState
-    weenie: Annotated[list[str], BeforeValidator(_weenie)] | None = Field(
+    weenie: Weenie | None = Field(
         None, description="Its flags; [] for a weenie without any, nothing for an object without weenie."
     )
     parts: list[PartModel] = Field(default_factory=list)
@@ -212,6 +213,15 @@ class ObjectModel(Strictly):
     spheres: list[Sphere] = Field(default_factory=list)
     parent: Flag = Field(0, description="1: it hangs on another object.")
     part_array: bool = Field(True, description="false: without shapes, whatever is listed.")
+    attached: list[ObjectId] = Field(default_factory=list, description="The objects that hang on it.")
     registered: list[CellId] | None = Field(
         None, description="The cells that it is tested in; without it those where retail registers it."
     )
+
+
+class RestrictionModel(Strictly):
+    """Cells that only some players may enter: those of a house."""
+
+    cells: Annotated[list[CellId], Field(min_length=1)]
+    admits: list[ObjectId] = Field(default_factory=list, description="The ids of those who may.")
+    known: bool = Field(True, description="false: the restriction object is not there; nobody may.")

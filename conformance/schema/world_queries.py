@@ -11,7 +11,7 @@ from conformance.schema.movement_queries import CallQuery, MoverQuery
 from conformance.schema.mover import SeedModel
 from conformance.schema.query_base import Needs, QueryModel
 from conformance.schema.values import CellId, Flag, Number, Plane, Sphere, Vec3
-from conformance.schema.world import BlockId, ObjectModel
+from conformance.schema.world import BlockId, ObjectModel, Rows
 
 AnyId: TypeAlias = Annotated[int, Field(ge=0, le=0xFFFF_FFFF)]
 """Any 32 bits, also those that are no cell's."""
@@ -98,6 +98,7 @@ class CellListQuery(SceneQuery):
     position: PlaceModel
     spheres: Spheres
     do_not_load: Flag = 0
+    without_path: Flag = Field(0, description="1: no path is told of interior cells.")
 
 
 class TransitCellsQuery(SceneQuery):
@@ -135,6 +136,9 @@ class TerrainBlockQuery(QueryModel):
     needs: ClassVar[Needs] = "terrain"
     op: Literal["terrain_block"]
     block: BlockId
+    heights_again: Rows | None = Field(
+        None, description="heights[i][j] with which it is constructed a second time."
+    )
 
 
 class TerrainSplitQuery(QueryModel):

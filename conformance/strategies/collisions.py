@@ -112,9 +112,9 @@ def find_collisions(
 
 
 @st.composite
-def transitions(draw: st.DrawFn) -> Query:
+def transitions(draw: st.DrawFn, geometries: st.SearchStrategy[Geometry] = GEOMETRIES) -> Query:
     """Generate queries of one `find_valid_position` in a cell, some with a static object in it."""
-    geometry = draw(GEOMETRIES)
+    geometry = draw(geometries)
     cell = draw(CELLS)
     floors = not draw(SELDOM)
     pose = draw_pose(draw, cell, upright=floors)
@@ -122,7 +122,7 @@ def transitions(draw: st.DrawFn) -> Query:
     known = {geometry.name: geometry}
     block: dict[str, Any] = {"id": cell, "pose": pose, "geometry": geometry.name}
     if draw(FLAGS):
-        obstacle = draw(GEOMETRIES)
+        obstacle = draw(geometries)
         known[obstacle.name] = obstacle
         block["statics"] = [_draw_static(draw, obstacle.name, met.end)]
     record = {

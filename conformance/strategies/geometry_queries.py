@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING, Any, Final
 
 from hypothesis import strategies as st
 
-from conformance.inputs import REQUIRED
+from conformance.inputs import FORMAT_OPS, REQUIRED
 from conformance.strategies.contact import draw_aim
 from conformance.strategies.movers import ALLOWANCES
 from conformance.strategies.numbers import DIRECTIONS, FLAGS, NEARLY, along, anywhere, grid, vectors
@@ -18,8 +18,8 @@ if TYPE_CHECKING:
     from conformance.scenes.model import Vec3
     from conformance.strategies.contact import Aim
 
-POLYGON_OPS: Final = tuple(op for op in REQUIRED if op.startswith("polygon_"))
-BSP_OPS: Final = tuple(op for op in REQUIRED if op.startswith("bsp_"))
+POLYGON_OPS: Final = tuple(op for op in FORMAT_OPS if op.startswith("polygon_"))
+BSP_OPS: Final = tuple(op for op in FORMAT_OPS if op.startswith("bsp_"))
 
 _CELL_OPS: Final = frozenset({"bsp_point_inside_cell", "bsp_sphere_intersects_cell"})
 _RADII: Final = st.just(0.48) | grid(0.0625, 1.0)

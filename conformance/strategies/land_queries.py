@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING, Any, Final
 
 from hypothesis import strategies as st
 
-from conformance.inputs import REQUIRED
+from conformance.inputs import FORMAT_OPS, REQUIRED
 from conformance.strategies.numbers import EPS, NEARLY, anywhere
 from conformance.strategies.worlds.land import BLOCK, CELL, LANDS, WATERS, landblock
 from conformance.vector_io import query_from_record
@@ -15,7 +15,7 @@ if TYPE_CHECKING:
     from conformance.query import Query
 
 LAND_DEFS_OPS: Final = (
-    *(op for op in REQUIRED if op.startswith("landdefs_")),
+    *(op for op in FORMAT_OPS if op.startswith("landdefs_")),
     "terrain_split",
     "terrain_block",
 )

@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING, Any, Final
 
 from hypothesis import strategies as st
 
-from conformance.inputs import REQUIRED
+from conformance.inputs import FORMAT_OPS, REQUIRED
 from conformance.strategies.movers import (
     CONTACT,
     EDGE_SLIDE,
@@ -24,7 +24,7 @@ if TYPE_CHECKING:
     from conformance.query import Query
 
 FRAME_OPS: Final = (
-    *(op for op in REQUIRED if op.startswith(("frame_", "position_", "plane_", "block_"))),
+    *(op for op in FORMAT_OPS if op.startswith(("frame_", "position_", "plane_", "block_"))),
     "normalize_check_small",
     "interpolate_rotation",
     "snap_to_plane",

@@ -362,14 +362,35 @@ def test_a_mistake_in_a_query_of_a_world_is_found(name: str, file: Path) -> None
 
 
 def test_the_same_object_and_building_twice(file: Path) -> None:
-    """An id is an object's own, and a land cell has one building: the first."""
+    """An id is an object's own; of two buildings in a land cell retail takes the first."""
     text = GOOD.replace(
         "  objects:\n", "  objects:\n" + GOOD[GOOD.index("    - {id: 0x7") : GOOD.index("mover:")]
     )
     building = GOOD[GOOD.index("    - pose: {cell: 0xA9B40011") : GOOD.index("  objects:")]
     file.write_text(text.replace("  buildings:\n", f"  buildings:\n{building}"), encoding="utf-8")
     found = [problem.found for problem in load_file(file).problems]
-    assert found == ["a second building in one land cell", "the object id 0x70000001 twice"]
+    assert found == ["the object id 0x70000001 twice"]
+
+
+def test_restrictions_are_of_cells_of_the_scene(file: Path) -> None:
+    """Each cell is told at its own place."""
+    restrictions = "  restrictions:\n    - {cells: [0xA9B40150, 0xA9B40159, 0xA9B60001]}\n"
+    file.write_text(GOOD.replace("mover:", f"{restrictions}mover:", 1), encoding="utf-8")
+    problems = load_file(file).problems
+    assert [problem.path for problem in problems] == [
+        "scene.restrictions[0].cells[1]",
+        "scene.restrictions[0].cells[2]",
+    ]
+    assert [problem.found for problem in problems] == ["the cell 0xA9B40159", "the cell 0xA9B60001"]
+
+
+def test_a_cell_of_less_detail_is_not_there(file: Path) -> None:
+    """A query that needs a land cell is told that the scene has it not, as of a block that is not loaded."""
+    head = GOOD[: GOOD.index("mover:")].replace('formula: "94 + x / 24"', "flat: 94, side_cell_count: 4")
+    assert "side_cell_count" in head
+    query = "query: {op: land_find_terrain_poly, cell: 0xA9B40001, point: [1, 1, 94]}\n"
+    file.write_text(head + query, encoding="utf-8")
+    assert "the cell 0xA9B40001" in [problem.found for problem in load_file(file).problems]
 
 
 def test_a_formula_is_told_once(file: Path) -> None:

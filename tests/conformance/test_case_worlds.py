@@ -59,7 +59,10 @@ LIST = f"query: {{op: find_cell_list, {PLACE}, spheres: [[100, 60, 95, 1]]}}\n"
 LAND_CALL = f"cell: 0xA9B40001, at: {POSE}, path: {{}}"
 WALKABLE = "sphere: [1, 1, 95, 1], plane: [0, 0, 1, -94], is_water: false, water_depth: 0"
 BODY = "{spheres: one-sphere, state: [], transient_state: []}"
-MOVED = {"transition", "walk", "land_find_env_collisions", "land_validate_walkable"}
+MOVED = {
+    *("transition", "walk", "land_find_env_collisions", "land_validate_walkable"),
+    *("find_transitional_position", "check_entry_restrictions"),
+}
 QUERIES = {
     "transition": f"from: {POSE}, to: {POSE}",
     "transition that places": f"from: null, to: {POSE}",
@@ -75,6 +78,11 @@ QUERIES = {
     "land_find_env_collisions": LAND_CALL,
     "land_validate_walkable": f"{LAND_CALL}, {WALKABLE}",
     "terrain_block": "block: 0xA9B4",
+    "find_transitional_position": f"from: {POSE}, to: {POSE}, insert_type: placement",
+    "check_entry_restrictions": f"cell: 0xA9B40001, {PLACE}",
+    "find_visible_child_cell": "cell: 0xA9B40100, point: [1, 1, 1], search_stabs: true",
+    "registration": "calls: [{object: 7, call: enter}, {object: 7, call: leave}]",
+    "place_body": f"body: {BODY}, start: {POSE}, to: {POSE}, flags: [slide], cell: null",
 }
 """Keys of queries by operation, and what is particular about them."""
 
@@ -192,6 +200,66 @@ def test_a_particle_emitter_is_in_its_own_cell_alone(load: Any) -> None:
     own = world_of(load(LAND + CELLS + DOORS + emitter))["shadow"]
     assert [len(shadow[str(0xA9B40101)]) for shadow in (both, own)] == [2, 1]
     assert own[str(0xA9B40100)] == both[str(0xA9B40100)]
+
+
+RESTRICTIONS = """\
+  restrictions:
+    - {cells: [0xA9B40100, 0xA9B40001], admits: [5, 7]}
+    - {cells: [0xA9B40101], known: false}
+"""
+
+
+def test_restrictions_are_of_single_cells(load: Any) -> None:
+    """Whoever is admitted to several is written with each; a shift moves the cells, not the ids."""
+    case = load(LAND + CELLS + DOORS + RESTRICTIONS)
+    house = {"object": 1, "admits": [5, 7]}
+    closed = {"object": 0, "admits": []}
+    assert world_of(case)["restrictions"] == {
+        str(0xA9B40100): house,
+        str(0xA9B40001): house,
+        str(0xA9B40101): closed,
+    }
+    shifted = case.queries[1].inputs["world"]
+    cells = [cell["id"] for cell in shifted["cells"]]
+    assert shifted["restrictions"][str(cells[0])] == house
+    assert shifted["restrictions"][str(cells[1])] == closed
+
+
+def test_worlds_as_real_ones(load: Any) -> None:
+    """What real worlds have and FORMAT.md lacks; it is absent from a record unless it is written."""
+    scene = (
+        "  terrain: [{blocks: [0xA9B4], flat: 94}, {blocks: [0xA9B5], flat: 94, side_cell_count: 4}]\n"
+        "  cells:\n"
+        "    - {id: 0xA9B40100, pose: {origin: [1, 2, 3], yaw: 0}, stab: [], portal_array: false,\n"
+        "       geometry: {tree: front, contains: {room: true}, shapes: [{room: {size: [6, 4, 3]}}]}}\n"
+        "  buildings:\n"
+        "    - {pose: {cell: 0xA9B40001, origin: [1, 2, 3], yaw: 0}, geometry: null, landblock: 0xA9B5}\n"
+        "  objects:\n"
+        "    - {id: 7, pose: {cell: 0xA9B40001, origin: [1, 2, 94], yaw: 0}, state: [], registered: [],\n"
+        "       attached: [5], parts: [{geometry: {tree: front, shapes: [{box: {size: [1, 1, 1]}}]},\n"
+        "       physics: false, drawing_sphere: [0, 0, 0.5, 1], flat: true}]}\n"
+        "    - {id: 5, pose: {cell: 0xA9B40001, origin: [1, 2, 94], yaw: 0}, state: [], registered: []}\n"
+    )
+    world = world_of(load(scene))
+    assert [block.get("side_cell_count") for block in world["landblocks"]] == [None, 4]
+    assert world["cells"][0]["portals"] is None
+    (building,) = world["buildings"]
+    assert (building["geometry"], building["block"]) == (None, 0xA9B5)
+    holder, held = world["objects"]
+    assert (holder["attached"], "attached" in held) == ([5], False)
+    (part,) = holder["parts"]
+    assert (part["no_physics"], part["drawing_sphere"], part["flat"]) == (1, [0.0, 0.0, 0.5, 1.0], 1)
+
+
+def test_who_moves_at_a_house(load: Any) -> None:
+    """The game object of a mover, and that of a body, by their flags."""
+    mover = MOVER.replace("state: []", "state: [], id: 7, weenie: [bypass]")
+    case = load(LAND + CELLS, f"{mover}query: {{op: transition, from: null, to: {POSE}}}\n")
+    assert case.queries[0].inputs["mover"]["weenie"] == {"bypass": 1}
+    body = "{spheres: one-sphere, state: [], transient_state: [], id: 7, weenie: [player]}"
+    query = f"query: {{op: body_walk, body: {body}, start: {POSE}, quantum: 0.1, ticks: [{{still: 1}}]}}\n"
+    block = load(LAND + CELLS, query).queries[0].inputs["body"]
+    assert (block["id"], block["weenie"]) == (7, {"player": 1})
 
 
 def test_a_sorting_sphere_holds_its_spheres() -> None:

@@ -110,12 +110,12 @@ def test_the_document_has_every_reason_and_no_other() -> None:
     recorded = {
         (name, key): reason.text for name, entries in REASONS.items() for key, reason in entries.items()
     }
-    assert len(recorded) > 50
+    assert len(recorded) > 20
     assert written == recorded
 
 
 def test_the_document_has_every_module_with_branches() -> None:
-    """A new module of the oracle asks for a new page; at least 98 of 100 branches in reach are reached."""
+    """A new module of the oracle asks for a new page; at least 98 of 100 branches are reached."""
     text = PAGE.read_text(encoding="utf-8")
     listed = set(re.findall(r"^\| [^|]+ \| (\w+\.py) \|", text, re.MULTILINE))
     branching = {
@@ -126,8 +126,6 @@ def test_the_document_has_every_module_with_branches() -> None:
     assert listed <= branching
     assert len(listed) > 40
     assert not listed & INSTRUMENTS
-    (whole,) = re.findall(
-        r"^\| all \| all files \| (\d+) \| (\d+) \| .+ \| (\d+) \| .+ \|$", text, re.MULTILINE
-    )
-    branches, reached, beyond = map(int, whole)
-    assert reached >= 0.98 * (branches - beyond)
+    (whole,) = re.findall(r"^\| all \| all files \| (\d+) \| (\d+) \| .+ \|$", text, re.MULTILINE)
+    branches, reached = map(int, whole)
+    assert reached >= 0.98 * branches

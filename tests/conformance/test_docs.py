@@ -10,6 +10,7 @@ import pytest
 from conformance.candidates.oracle_candidate import OracleCandidate
 from conformance.cli import main
 from conformance.loader import load_file
+from conformance.own_operations import OWN_OUTPUTS
 from conformance.schema.query import MODEL_OF_OP
 from conformance.schema.scene import SceneModel
 from conformance.verdict import judge
@@ -80,6 +81,8 @@ def test_the_page_names_every_key_of_a_world() -> None:
     for op in MODEL_OF_OP:
         if MODEL_OF_OP[op].__module__.endswith("world_queries") and not op.startswith("landdefs_"):
             assert f"`{op}`" in page
+    for op in OWN_OUTPUTS:
+        assert f"`{op}`" in page
 
 
 def test_the_mistake_is_told_as_shown(tutorial: Path, capsys: pytest.CaptureFixture[str]) -> None:

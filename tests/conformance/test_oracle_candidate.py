@@ -5,12 +5,15 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 import pytest
+from own_queries import own_queries
 from shipped_vectors import FILES, VECTORS, library, records
 
 from conformance.candidates.oracle_candidate import OPS, OracleCandidate
 from conformance.candidates.oracle_ops.geometry import oracle_geometry
 from conformance.candidates.oracle_ops.state_block import geometry_of
-from conformance.query import Errored, Query, Skipped
+from conformance.fields import normalise
+from conformance.own_operations import OWN_OUTPUTS
+from conformance.query import Errored, Query, Result, Skipped
 
 if TYPE_CHECKING:
     from conformance.vector_io import VectorRecord
@@ -44,9 +47,20 @@ def test_answers_do_not_depend_on_what_was_asked_before() -> None:
 
 
 def test_the_oracle_covers_every_operation() -> None:
-    """Whatever a shipped record asks, and nothing else."""
+    """Whatever a shipped record asks, and the suite's own operations."""
     asked = {record.query.op for path in FILES for record in records(path)}
-    assert asked == OPS.keys()
+    assert not asked & OWN_OUTPUTS.keys()
+    assert asked | OWN_OUTPUTS.keys() == OPS.keys()
+
+
+@pytest.mark.parametrize("op", sorted(OWN_OUTPUTS))
+def test_own_operations_answer_with_their_fields(op: str) -> None:
+    """The fields of their shape, plain numbers, and the same when asked again: no world is changed."""
+    oracle, query = OracleCandidate(), own_queries()[op]
+    outcome = oracle.answer(query)
+    assert isinstance(outcome, Result), outcome
+    assert normalise(op, outcome.fields) == outcome.fields
+    assert oracle.answer(query) == outcome
 
 
 def test_a_polygon_is_found_in_its_geometry() -> None:

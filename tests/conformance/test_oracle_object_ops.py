@@ -92,13 +92,13 @@ def test_an_object_has_what_its_block_says() -> None:
     made = physics_object(block, GEOMETRIES, world)
     assert (made.id, made.state, made.m_scale, made.world) == (7, 0x10008, 2.0, world)
     assert made.weenie_obj == Weenie(
-        is_creature=True, is_player=True, is_pk=True, is_pklite=True, is_impenetrable=True
+        is_creature=True, is_player=True, is_pk=True, is_pklite=True, is_impenetrable=True, id=7
     )
     assert made.parent is not None
     parts = made.part_array
     assert parts is not None
     assert parts.setup is not None
-    assert (parts.setup.num_cylsphere, parts.setup.num_sphere) == (1, 2)
+    assert (len(parts.setup.cylsphere), parts.setup.num_sphere) == (1, 2)
     assert parts.setup.sorting_sphere is not None
     assert parts.setup.sorting_sphere.radius == 6.0
     missing, plain, own = parts.parts

@@ -169,7 +169,7 @@ def test_a_suite_without_cases_is_red(run: pytest.Pytester, monkeypatch: pytest.
 
 def test_a_run_that_compares_nothing_is_red(run: pytest.Pytester, monkeypatch: pytest.MonkeyPatch) -> None:
     """A candidate that skips every query is not conformant."""
-    monkeypatch.setattr("conformance.items.make_candidate", lambda _spec: NeverCandidate())
+    monkeypatch.setattr("conformance.items.make_candidate", lambda _spec, **_options: NeverCandidate())
     result = run.runpytest_inprocess("--cases", str(ORIGIN))
     result.assert_outcomes(skipped=2)
     assert result.ret == pytest.ExitCode.NO_TESTS_COLLECTED
@@ -239,7 +239,7 @@ def test_a_case_of_which_all_was_skipped_is_skipped(
     """The reason and the line of the case are told, and counted."""
     make = items.make_candidate
 
-    def half(spec: str) -> Candidate:
+    def half(spec: str, **_options: object) -> Candidate:
         return Half() if spec == "engine" else make(spec)
 
     monkeypatch.setattr(items, "make_candidate", half)

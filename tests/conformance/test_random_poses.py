@@ -17,6 +17,7 @@ BLOCK_OFFSET = f"{SUITE / 'test_poses.py'}::test_frame[block_offset]"
 def run(rootdir: Path, *arguments: str) -> tuple[int, list[str]]:
     """Run pytest in a process of its own with the gate's profile; return its exit code and output."""
     environment = {**os.environ, "CI": "1", "PYTHONPATH": str(SUITE.parent), "PYTHONUTF8": "1"}
+    environment.pop("PYTEST_ADDOPTS", None)  # options of the run around this one
     command = [
         sys.executable,
         "-m",

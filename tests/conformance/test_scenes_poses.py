@@ -11,10 +11,12 @@ from typing import Any
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
+from own_queries import own_queries
 
 import conformance
 from conformance.floats import is_float32
 from conformance.outputs import OUTPUTS
+from conformance.own_operations import OWN_OUTPUTS
 from conformance.query import Query
 from conformance.scenes.algebra import dot, length, subtract
 from conformance.scenes.model import Pose
@@ -69,7 +71,10 @@ POSES = st.integers(0, 10_000).map(lambda seed: seeded_poses(12, seed)[seed % 12
 
 
 def record_of(op: str) -> dict[str, Any]:
-    """Return the inputs of the first shipped vector of an operation, its world whole but without land."""
+    """Return the first shipped or built-in inputs of an operation, their world whole but without land."""
+    if op in OWN_OUTPUTS:
+        inputs = dict(own_queries()[op].inputs)
+        return inputs | {"world": {**inputs["world"], "landblocks": [], "buildings": []}}
     library = Library(VECTORS)
     for path in sorted(VECTORS.glob("*.jsonl")):
         for line in path.read_text(encoding="utf-8").splitlines():

@@ -11,16 +11,16 @@ from conformance.scenes.bsp_builder import TreeStyle, build
 from conformance.scenes.cell_planes import box_planes
 from conformance.scenes.errors import SceneError
 from conformance.scenes.model import Pose
+from conformance.scenes.object_model import Part, WorldObject
 from conformance.scenes.primitives import room
 from conformance.scenes.validate_world import check_world, world_errors
 from conformance.scenes.world_model import (
     Building,
     InteriorCell,
     LandBlock,
-    Part,
     Portal,
+    Restriction,
     World,
-    WorldObject,
     is_interior,
 )
 
@@ -85,6 +85,12 @@ def test_what_an_object_may_have() -> None:
     assert record["parts"] == [{"geometry": "shell", "pose": POSE.to_record(), "scale": 2.0}]
 
 
+def test_two_buildings_in_a_land_cell_are_no_mistake() -> None:
+    """Retail takes the first (09 3.6), and drops one that another landblock's file lists (09 3.7)."""
+    other = building(block=0xA9B4, pose=Pose(0xA9B50001, (1.0, 1.0, 1.0))).buildings
+    assert list(world_errors(replace(GOOD, buildings=GOOD.buildings * 2 + other))) == []
+
+
 def test_geometries_are_listed_once() -> None:
     """In order of first use: cells, buildings, objects."""
     assert list(GOOD.geometries()) == [ROOM, SHELL]
@@ -127,6 +133,11 @@ def building(**change: Any) -> World:
     return replace(GOOD, buildings=(replace(GOOD.buildings[0], **change),))
 
 
+def drawn(radius: float) -> Part:
+    """Return a part without physics."""
+    return Part(SHELL, physics=False, drawing_sphere=(0.0, 0.0, 0.0, radius))
+
+
 HIGH = (94.0,) * 80 + (800.5,)
 FAR = replace(ROOM, vertices=((1e9, 0.0, 0.0), *ROOM.vertices[1:]))
 FLAT = build("open", room(size=(1, 1, 1)), style=TreeStyle.FRONT, kind="room")
@@ -165,7 +176,18 @@ FLAT = build("open", room(size=(1, 1, 1)), style=TreeStyle.FRONT, kind="room")
         (building(pose=Pose(0xA9B50001, (1.0, 1.0, 1.0))), "buildings[0].pose.origin", "no loaded landblock"),
         (building(pose=Pose(0, (1.0, 1.0, 1.0))), "buildings[0].pose.cell", "0"),
         (building(portals=((CELL, 1),)), "buildings[0].portals[0]", "portal 1"),
-        (replace(GOOD, buildings=GOOD.buildings * 2), "buildings[1].pose.origin", "a second building"),
+        (building(block=0xA9B5), "buildings[0].block", "0xA9B5"),
+        (block(side_cell_count=3), "landblocks[0].side_cell_count", "3"),
+        (thing(attached=(0x70000001,)), "objects[0].attached[0]", "0x70000001"),
+        (thing(attached=(5,)), "objects[0].attached[0]", "0x00000005"),
+        (thing(parts=(drawn(0.0),)), "objects[0].parts[0].drawing_sphere", "(0)"),
+        (
+            thing(parts=(replace(drawn(1.0), physics=True),)),
+            "objects[0].parts[0].drawing_sphere",
+            "beside a physics tree",
+        ),
+        (replace(GOOD, restrictions={CELL + 9: Restriction()}), f"restrictions[{CELL + 9}]", "0xA9B40109"),
+        (replace(GOOD, restrictions={0xA9B40041: Restriction()}), "restrictions[2847146049]", "0xA9B40041"),
         (thing(id=0), "objects[0].id", "the object id 0"),
         (replace(GOOD, objects=GOOD.objects * 2), "objects[1].id", "twice"),
         (thing(scale=0.0), "objects[0].scale", "0.0"),

@@ -134,7 +134,7 @@ def test_a_query_needs_an_operation() -> None:
         (b'{"id": NaN}', MalformedLineError, 1, 'NaN is not JSON, expected the string "nan"'),
         (b"[1]", MalformedLineError, 1, "found a list, expected an object"),
         (b"[" * 100_000, MalformedLineError, 1, "not JSON"),
-        ({**GOOD, "id": 3}, MalformedRecordError, 1, "id: found 3, expected a string"),
+        ({**GOOD, "id": 3}, MalformedRecordError, 1, "id: found 3, expected some text"),
         ({**GOOD, "id": "x", "op": "blok_offset"}, MalformedRecordError, 1, "did you mean 'block_offset'"),
         ({"id": "x", "op": "block_offset"}, MalformedRecordError, 1, "from_cell: found nothing"),
         (

@@ -79,6 +79,8 @@ def test_places_of_keys_and_values() -> None:
         (b"a: !!float 1\n", 1, 4, "the tag 'tag:yaml.org,2002:float'"),
         (b"a: &x [*x]\n", 1, 8, "the alias *x inside its own value"),
         (b"a: *y\n", 1, 4, "the alias *y"),
+        (b"a: &x 1\nb: &x 2\n", 2, 4, "the anchor &x a second time"),
+        (b"a: &x [&x 1]\n", 1, 8, "the anchor &x a second time"),
         (b"---\na: 1\n---\nb: 2\n", 3, 1, "a second document"),
     ],
 )
@@ -102,7 +104,7 @@ def test_several_refusals_are_told_at_once() -> None:
     ("text", "line", "column", "found"),
     [
         (b"a: \xff\n", 1, 4, "the byte 0xFF"),
-        ("a: 1\n".encode("utf-16"), 1, 1, "the byte 0xFF"),
+        ("a: 1\n".encode("utf-16"), 1, 1, "text in UTF-16"),
         (b"a:\n\t- 1\n", 2, 1, "a YAML syntax error: found character '\\t' that cannot start any token"),
         (b"a: [1\n", 2, 1, "a YAML syntax error: expected ',' or ']', but got '<stream end>'"),
         (b"a: b: c\n", 1, 5, "a YAML syntax error: mapping values are not allowed here"),

@@ -96,12 +96,6 @@ def test_only_loaded_cells_are_visible() -> None:
     assert world.get_visible(0xA9B40001) is None
 
 
-def test_only_interior_cells_are_loaded_one_by_one() -> None:
-    """Land cells come with their landblock."""
-    with pytest.raises(ValueError, match=r"EnvCell\(0xa9b40040\) is not an interior cell"):
-        room(World(), 0xA9B40040)
-
-
 class TestVisibleChild:
     """09 7: find_visible_child_cell, among half spaces that begin at x = 0, 10 and 20."""
 

@@ -42,7 +42,6 @@ def test_a_part_without_geometry_is_free() -> None:
         PhysicsPart(GfxObj(None), at(0.0, 0.0, 0.0), vec(1.0, 1.0, 1.0)),
     ):
         assert part.find_obj_collisions(made) == OK
-    assert GfxObj(None).find_obj_collisions(made, 1.0) == OK
     assert trace_of(made) == ""
 
 

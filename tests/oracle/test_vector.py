@@ -10,7 +10,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from oracle.constants import EPS
-from oracle.vector import Vector3, dot_x, dot_y, dot_z
+from oracle.vector import Vector3, dot_x, dot_z
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -21,12 +21,11 @@ UNIT_LENGTH_BOUND = 2.0**-22
 """Three components rounded by at most 2^-25 each, and the reciprocal's rounding, with room."""
 
 
-def test_the_three_dot_products_differ_in_what_is_added_last() -> None:
+def test_the_dot_products_differ_in_what_is_added_last() -> None:
     """A large pair of terms that cancels leaves or swallows the small one, by association."""
     a = Vector3(2.0**60, 1.0, 2.0**60)
     b = Vector3(1.0, 1.0, -1.0)
     assert dot_x(a, b) == 0.0
-    assert dot_y(a, b) == 1.0
     assert dot_z(a, b) == 0.0
     assert dot_z(Vector3(2.0**60, 2.0**60, 1.0), Vector3(1.0, -1.0, 1.0)) == 1.0
     assert dot_x(Vector3(1.0, 2.0**60, 2.0**60), Vector3(1.0, 1.0, -1.0)) == 1.0

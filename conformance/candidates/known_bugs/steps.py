@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from copy import deepcopy
 from typing import TYPE_CHECKING, Final
 
 from conformance.candidates.bug_candidate import KnownBug
@@ -20,7 +21,7 @@ _TWO_HALVES: Final = "self.step_down(height, z) or self.step_down(height, z)"
 def _put_plane_back(retail: Callable[[Transition, Vector3], int]) -> Callable[[Transition, Vector3], int]:
     def step_up(self: Transition, normal: Vector3) -> int:
         collisions = self.collision_info
-        valid, plane = collisions.contact_plane_valid, collisions.contact_plane.copy()
+        valid, plane = collisions.contact_plane_valid, deepcopy(collisions.contact_plane)
         water, cell_id = collisions.contact_plane_is_water, collisions.contact_plane_cell_id
         result = retail(self, normal)
         collisions.set_contact_plane(plane, water)

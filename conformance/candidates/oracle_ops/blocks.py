@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any, Final
 
+from conformance.candidates.oracle_ops.objects import weenie
 from conformance.candidates.oracle_ops.values import plane, position, sphere, vector
 from oracle.arithmetic import f32
 from oracle.enums import InsertType
@@ -65,6 +66,7 @@ def moving_object(mover: Mapping[str, Any], pose: Position) -> PhysicsObj:
         state,
         pose,
         scale=f32(mover["scale"]),
+        weenie=weenie(mover["weenie"], mover.get("id", 0)) if "weenie" in mover else None,
         part_array=PartArray([], setup, Vector3(UNIT, UNIT, UNIT)),
     )
 

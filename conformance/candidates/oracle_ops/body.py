@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any
 
-from conformance.candidates.oracle_ops.objects import weenie
+from conformance.candidates.oracle_ops.objects import holder, weenie
 from conformance.candidates.oracle_ops.values import plane, position, sphere, vector
 from oracle.arithmetic import f32
 from oracle.constants import DEFAULT_ELASTICITY, DEFAULT_FRICTION
@@ -38,13 +38,15 @@ class Body(PhysicsObj):
     """
 
     def __init__(self, block: Mapping[str, Any], world: World) -> None:
+        object_id = block.get("id", 0)
         super().__init__(
-            0,
+            object_id,
             block.get("state", DEFAULT_STATE),
             position(block["position"]) if "position" in block else Position(),
             scale=f32(block.get("scale", 1.0)),
-            part_array=_part_array(block),
-            weenie=weenie(block["weenie"]) if "weenie" in block else None,
+            part_array=None if block.get("no_part_array", 0) else _part_array(block),
+            weenie=weenie(block["weenie"], object_id) if "weenie" in block else None,
+            parent=holder() if block.get("parent", 0) else None,
             world=world,
         )
         self.begun: Transition | None = None

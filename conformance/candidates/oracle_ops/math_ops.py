@@ -11,6 +11,8 @@ from conformance.candidates.oracle_ops.values import (
     plane,
     position,
     quaternion,
+    ray_of,
+    untouched,
     vector,
     xyz,
 )
@@ -102,6 +104,85 @@ def _frame_is_equal(query: Query) -> Fields:
     return {"r": int(a.frame.is_equal(b.frame))}
 
 
+def _frame_combine(query: Query) -> Fields:
+    a, b = position(query.inputs["a"]).frame, position(query.inputs["b"]).frame
+    result = Frame()
+    result.combine(a, b)
+    return _combined(result)
+
+
+def _frame_combine_aframe(query: Query) -> Fields:
+    a, b = position(query.inputs["a"]).frame, position(query.inputs["b"]).frame
+    result = Frame()
+    result.combine_aframe(a, b)
+    return _combined(result)
+
+
+def _frame_combine_scaled(query: Query) -> Fields:
+    a, b = position(query.inputs["a"]).frame, position(query.inputs["b"]).frame
+    result = Frame()
+    result.combine_scaled(a, b, vector(query.inputs["scales"]))
+    return _combined(result)
+
+
+def _combined(result: Frame) -> Fields:
+    return {"origin": xyz(result.origin), "q": quaternion(result)}
+
+
+def _frame_interpolate_origin(query: Query) -> Fields:
+    a, b = position(query.inputs["a"]).frame, position(query.inputs["b"]).frame
+    result = Frame()
+    result.interpolate_origin(a, b, f32(query.inputs["t"]))
+    return {"v": xyz(result.origin)}
+
+
+def _frame_get_heading(query: Query) -> Fields:
+    return {"heading": frame(query.inputs["rotation"]).get_heading()}
+
+
+def _frame_set_heading(query: Query) -> Fields:
+    result = frame(query.inputs["rotation"])
+    result.set_heading(f32(query.inputs["degrees"]))
+    return {"q": quaternion(result)}
+
+
+def _frame_set_vector_heading(query: Query) -> Fields:
+    result = frame(query.inputs["rotation"])
+    result.set_vector_heading(vector(query.inputs["v"]))
+    return {"q": quaternion(result)}
+
+
+def _position_localtoglobal_origin(query: Query) -> Fields:
+    to, from_ = position(query.inputs["to"]), position(query.inputs["from"])
+    return {"v": xyz(to.localtoglobal_origin(from_))}
+
+
+def _position_get_offset_point(query: Query) -> Fields:
+    to, from_ = position(query.inputs["to"]), position(query.inputs["from"])
+    return {"v": xyz(from_.get_offset_point(to, vector(query.inputs["point"])))}
+
+
+def _position_distance(query: Query) -> Fields:
+    to, from_ = position(query.inputs["to"]), position(query.inputs["from"])
+    return {"distance": from_.distance(to)}
+
+
+def _position_get_outside_cell_id(query: Query) -> Fields:
+    return {"cell": position(query.inputs["position"]).get_outside_cell_id()}
+
+
+def _plane_set_height(query: Query) -> Fields:
+    v = vector(query.inputs["v"])
+    r = plane(query.inputs["plane"]).set_height(v)
+    return {"r": r, "v": xyz(v)}
+
+
+def _plane_ray(query: Query) -> Fields:
+    ray, time = ray_of(query.inputs), untouched()
+    r = plane(query.inputs["plane"]).compute_time_of_intersection(ray, time)
+    return {"r": r, "time": time.value}
+
+
 # The methods are looked up at the call, so that a candidate may replace one for a while.
 OPS: Final[dict[str, Callable[[Query], Fields]]] = {
     "frame_cache": _frame_cache,
@@ -121,5 +202,18 @@ OPS: Final[dict[str, Callable[[Query], Fields]]] = {
     "normalize_check_small": _normalize_check_small,
     "interpolate_rotation": _interpolate_rotation,
     "snap_to_plane": _snap_to_plane,
+    "frame_combine": _frame_combine,
+    "frame_combine_aframe": _frame_combine_aframe,
+    "frame_combine_scaled": _frame_combine_scaled,
+    "frame_interpolate_origin": _frame_interpolate_origin,
+    "frame_get_heading": _frame_get_heading,
+    "frame_set_heading": _frame_set_heading,
+    "frame_set_vector_heading": _frame_set_vector_heading,
+    "position_localtoglobal_origin": _position_localtoglobal_origin,
+    "position_get_offset_point": _position_get_offset_point,
+    "position_distance": _position_distance,
+    "position_get_outside_cell_id": _position_get_outside_cell_id,
+    "plane_set_height": _plane_set_height,
+    "plane_ray": _plane_ray,
 }
 """Operation name to function."""

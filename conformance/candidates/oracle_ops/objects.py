@@ -9,7 +9,7 @@ from conformance.candidates.oracle_ops.values import position, sphere, vector
 from oracle.arithmetic import f32
 from oracle.cyl_sphere import CylSphere
 from oracle.physics_object import PhysicsObj
-from oracle.physics_part import PartArray, PhysicsPart, Setup
+from oracle.physics_part import GfxObj, PartArray, PhysicsPart, Setup
 from oracle.position import Position
 from oracle.vector import Vector3
 from oracle.weenie import Weenie
@@ -20,6 +20,8 @@ if TYPE_CHECKING:
     from conformance.scenes.model import Geometry
     from oracle.world import World
 
+FLAT_PICTURE: Final = 2
+"""A way of drawing that is not the one of solid things (09 6.5.4)."""
 HOLDER_ID: Final = 0
 """Id of what an attached object is attached to; only that there is something matters."""
 
@@ -50,13 +52,13 @@ def physics_object(
         pose,
         scale=scale,
         part_array=None if block.get("no_part_array", 0) else _part_array(block, geometries, pose, scale),
-        weenie=weenie(block["weenie"]) if block.get("weenie") is not None else None,
-        parent=_holder() if block.get("parent", 0) else None,
+        weenie=weenie(block["weenie"], block["id"]) if block.get("weenie") is not None else None,
+        parent=holder() if block.get("parent", 0) else None,
         world=world,
     )
 
 
-def weenie(block: Mapping[str, Any]) -> Weenie:
+def weenie(block: Mapping[str, Any], object_id: int = 0) -> Weenie:
     """Make the game object of a `weenie` block; what is absent is 0."""
     return Weenie(
         is_creature=bool(block.get("creature", 0)),
@@ -64,6 +66,8 @@ def weenie(block: Mapping[str, Any]) -> Weenie:
         is_pk=bool(block.get("pk", 0)),
         is_pklite=bool(block.get("pklite", 0)),
         is_impenetrable=bool(block.get("impenetrable", 0)),
+        can_bypass_move_restrictions=bool(block.get("bypass", 0)),
+        id=object_id,
     )
 
 
@@ -94,8 +98,19 @@ def _part(
     own_pose = position(part["pose"]) if "pose" in part else pose.copy()
     own_scale = f32(part["scale"]) if "scale" in part else scale
     gfxobj = oracle_geometry(geometries[part["geometry"]]).gfx_obj
-    return PhysicsPart(gfxobj, own_pose, Vector3(own_scale, own_scale, own_scale))
+    if part.get("no_physics", 0):
+        drawn = part.get("drawing_sphere")
+        gfxobj = GfxObj(
+            None,
+            bounding_box=gfxobj.bounding_box,
+            drawing_sphere=None if drawn is None else sphere(drawn),
+        )
+    made = PhysicsPart(gfxobj, own_pose, Vector3(own_scale, own_scale, own_scale))
+    if part.get("flat", 0):
+        made.degrade_modes = (FLAT_PICTURE,)
+    return made
 
 
-def _holder() -> PhysicsObj:
+def holder() -> PhysicsObj:
+    """Make something that another object hangs on."""
     return PhysicsObj(HOLDER_ID, 0, Position(), scale=1.0, part_array=None)

@@ -5,7 +5,15 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Final
 
 from conformance.candidates.oracle_ops.geometry import oracle_geometry
-from conformance.candidates.oracle_ops.values import nxyzd, point_or_null, sphere, vector, xyz
+from conformance.candidates.oracle_ops.values import (
+    nxyzd,
+    point_or_null,
+    ray_of,
+    sphere,
+    untouched,
+    vector,
+    xyz,
+)
 from oracle.arithmetic import f32
 from oracle.enums import Sidedness
 from oracle.ref import Ref
@@ -104,6 +112,12 @@ def _adjust_to_placement_poly(query: Query) -> Fields:
     return {"center": xyz(struck.center), "other_center": xyz(other.center)}
 
 
+def _hits_ray(query: Query) -> Fields:
+    time = untouched()
+    r = _polygon(query).polygon_hits_ray(ray_of(query.inputs), time)
+    return {"r": r, "time": time.value}
+
+
 OPS: Final[dict[str, Callable[[Query], Fields]]] = {
     "polygon_make_plane": _make_plane,
     "polygon_point_in_polygon": _point_in_polygon,
@@ -118,5 +132,6 @@ OPS: Final[dict[str, Callable[[Query], Fields]]] = {
     "polygon_adjust_sphere_to_plane": _adjust_sphere_to_plane,
     "polygon_adjust_sphere_to_poly": _adjust_sphere_to_poly,
     "polygon_adjust_to_placement_poly": _adjust_to_placement_poly,
+    "polygon_hits_ray": _hits_ray,
 }
 """Operation name to function."""

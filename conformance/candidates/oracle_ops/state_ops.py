@@ -100,6 +100,17 @@ def cliff_slide(query: Query) -> Fields:
     return outcome | _moved(made)
 
 
+def calc_num_steps(query: Query) -> Fields:
+    """`CTransition::calc_num_steps` from a position, or from none."""
+    inputs = query.inputs
+    made, end = Transition(World()), position(inputs["to"])
+    begin = None if inputs["from"] is None else position(inputs["from"])
+    take_mover(made, inputs["mover"], end)
+    made.init_path(None, begin, end)
+    offset, step, num_steps = made.calc_num_steps()
+    return {"offset": xyz(offset), "step": xyz(step), "num_steps": num_steps}
+
+
 def cache_localspace_sphere(query: Query) -> Fields:
     """`SPHEREPATH::cache_localspace_sphere` for a given pose and scale."""
     made = _nowhere(query.inputs)
@@ -123,6 +134,7 @@ OPS: Final[dict[str, Callable[[Query], Fields]]] = {
     "adjust_offset": adjust_offset,
     "cliff_slide": cliff_slide,
     "cache_localspace_sphere": cache_localspace_sphere,
+    "calc_num_steps": calc_num_steps,
 }
 
 

@@ -61,6 +61,19 @@ def _get_block_offset(query: Query) -> Fields:
     return {"v": xyz(land_defs.get_block_offset(query.inputs["from_cell"], query.inputs["to_cell"]))}
 
 
+def _within_block(query: Query) -> Fields:
+    point, radius = vector(query.inputs["point"]), f32(query.inputs["radius"])
+    return {"r": int(land_defs.within_block(point, radius))}
+
+
+def _set_height_table(query: Query) -> Fields:
+    """Fill a table that is not filled yet; what is answered is how far it was."""
+    untaken = -1.0
+    table = [untaken] * land_defs.HEIGHT_TABLE_SIZE
+    r = land_defs.set_height_table(table, [f32(z) for z in query.inputs["values"]])
+    return {"r": r, "table": [z for z in table if z != untaken]}
+
+
 def _terrain_split(query: Query) -> Fields:
     x, y = query.inputs["block"] >> 8, query.inputs["block"] & 0xFF
     side = range(land_defs.SIDE_CELLS)
@@ -72,6 +85,9 @@ def _terrain_split(query: Query) -> Fields:
 
 def _terrain_block(query: Query) -> Fields:
     block = land_block(query.inputs, World())
+    if "heights_again" in query.inputs:
+        block.land_height_table = [f32(z) for z in query.inputs["heights_again"]]
+        block.generate()
     cells = [
         {
             "id": cell.id,
@@ -150,6 +166,8 @@ OPS: Final[dict[str, Callable[[Query], Fields]]] = {
     "landdefs_get_outside_lcoord": _get_outside_lcoord,
     "landdefs_adjust_to_outside": _adjust_to_outside,
     "landdefs_get_block_offset": _get_block_offset,
+    "landdefs_within_block": _within_block,
+    "landdefs_set_height_table": _set_height_table,
     "terrain_split": _terrain_split,
     "terrain_block": _terrain_block,
     "land_find_terrain_poly": _find_terrain_poly,

@@ -96,6 +96,12 @@ def _clear_transient_states(query: Query) -> Fields:
     return {"transient_state": body.transient_state, **_accelerated(body)}
 
 
+def _set_elasticity(query: Query) -> Fields:
+    body = make_body(query.inputs["body"])
+    body.set_elasticity(f32(query.inputs["elasticity"]))
+    return {"elasticity": body.elasticity}
+
+
 def _handle_all_collisions(query: Query) -> Fields:
     inputs = query.inputs
     body = make_body(inputs["body"])
@@ -155,6 +161,11 @@ def _set_position(query: Query) -> Fields:
     ci.sliding_normal.assign(vector(block["sliding_normal"]))
     ci.sliding_normal_valid = block["sliding_normal_valid"]
     body.set_position_internal(made)
+    return written_back(body)
+
+
+def written_back(body: Body) -> Fields:
+    """Write what a body has after a write-back."""
     return {
         "lost": int(body.cell is None),
         "position": pose_block(body.m_position),
@@ -208,6 +219,7 @@ OPS: Final[dict[str, Callable[[Query], Fields]]] = {
     "set_local_velocity": _set_local_velocity,
     "set_on_walkable": _set_on_walkable,
     "clear_transient_states": _clear_transient_states,
+    "set_elasticity": _set_elasticity,
     "handle_all_collisions": _handle_all_collisions,
     "set_position": _set_position,
     "seed": _seed,

@@ -8,13 +8,13 @@ from oracle.arithmetic import f32
 from oracle.frame import Frame
 from oracle.plane import Plane
 from oracle.position import Position
+from oracle.ray import Ray
+from oracle.ref import Ref
 from oracle.sphere import Sphere
 from oracle.vector import Vector3
 
 if TYPE_CHECKING:
     from collections.abc import Mapping, Sequence
-
-    from oracle.ref import Ref
 
 
 def vector(values: Sequence[float]) -> Vector3:
@@ -42,6 +42,16 @@ def frame(rotation: Sequence[float], origin: Sequence[float] = (0.0, 0.0, 0.0)) 
 def position(pose: Mapping[str, Any]) -> Position:
     """Make a position of a POSE block."""
     return Position(int(pose["cell"]), frame(pose["rotation"], pose["origin"]))
+
+
+def ray_of(inputs: Mapping[str, Any]) -> Ray:
+    """Make the ray of a query's `point` and `direction`."""
+    return Ray(vector(inputs["point"]), vector(inputs["direction"]))
+
+
+def untouched() -> Ref[Any]:
+    """Make an output that may be left alone, which is then null."""
+    return Ref(None)
 
 
 def xyz(v: Vector3) -> list[float]:

@@ -14,7 +14,7 @@ from oracle.arithmetic import f32
 from oracle.building import BldPortal, BuildingObj
 from oracle.env_cell import CellPortal, CellStruct, EnvCell
 from oracle.land_block import LandBlock
-from oracle.land_defs import WHOLE_BLOCK, adjust_to_outside
+from oracle.land_defs import SIDE_CELLS, WHOLE_BLOCK, adjust_to_outside
 from oracle.landscape import Landscape
 from oracle.physics_part import PartArray, PhysicsPart
 from oracle.polygon import Polygon
@@ -22,9 +22,10 @@ from oracle.vector import Vector3
 from oracle.world import World
 
 if TYPE_CHECKING:
-    from collections.abc import Iterator, Sequence
+    from collections.abc import Callable, Iterator, Sequence
 
     from conformance.scenes.model import Geometry
+    from oracle.obj_cell import Restriction
     from oracle.physics_object import PhysicsObj
     from oracle.plane import Plane
 
@@ -47,12 +48,19 @@ def build_world(record: Mapping[str, Any], geometries: Mapping[str, Geometry]) -
     geometries : Mapping of str to Geometry
         Those that cells, buildings and objects name.
     """
+    return world_and_objects(record, geometries)[0]
+
+
+def world_and_objects(
+    record: Mapping[str, Any], geometries: Mapping[str, Geometry]
+) -> tuple[World, Callable[[int], PhysicsObj]]:
+    """Make a world of its own, and what returns its objects by their ids; see `build_world`."""
     world = World()
     things = _Things(record, geometries, world)
     for block in record["cells"]:
         world.add_cell(_env_cell(block, things))
     world.landscape = Landscape(_Blocks(record, things))
-    return world
+    return world, things.named
 
 
 CACHE: KeptWorlds[World] = KeptWorlds(build_world)
@@ -68,12 +76,19 @@ class _Things:
         self._blocks = {block["id"]: block for block in record["objects"]}
         self._made: dict[int, PhysicsObj] = {}
         self._shadow = {int(cell_id): ids for cell_id, ids in record["shadow"].items()}
+        self._restricted = {int(cell_id): one for cell_id, one in record.get("restrictions", {}).items()}
 
     def in_cell(self, cell_id: int) -> list[PhysicsObj]:
         """Return a cell's shadow list, made anew of the same objects."""
-        return [self._object(object_id) for object_id in self._shadow.get(cell_id, ())]
+        return [self.named(object_id) for object_id in self._shadow.get(cell_id, ())]
 
-    def _object(self, object_id: int) -> PhysicsObj:
+    def restriction(self, cell_id: int) -> Restriction | None:
+        """Return what a cell asks of those who want to enter, if it is a house's."""
+        block = self._restricted.get(cell_id)
+        return None if block is None else _restriction(block)
+
+    def named(self, object_id: int) -> PhysicsObj:
+        """Return an object."""
         made = self._made.get(object_id)
         if made is None:
             made = physics_object(self._blocks[object_id], self.geometries, self.world)
@@ -89,7 +104,8 @@ class _Blocks(Mapping[int, LandBlock]):
         self._things = things
         self._buildings: dict[int, list[Mapping[str, Any]]] = defaultdict(list)
         for building in record["buildings"]:
-            self._buildings[_block_under(building)].append(building)
+            listed = building.get("block")
+            self._buildings[_block_under(building) if listed is None else listed].append(building)
         self._made: dict[int, LandBlock] = {}
 
     def __getitem__(self, block_id: int) -> LandBlock:
@@ -110,6 +126,7 @@ class _Blocks(Mapping[int, LandBlock]):
         block.init_buildings(_building(item, things) for item in self._buildings[record["block"]])
         for cell in block.cells:
             cell.shadow_object_list = things.in_cell(cell.id)
+            cell.restriction = things.restriction(cell.id)
         return block
 
 
@@ -119,6 +136,7 @@ def land_block(record: Mapping[str, Any], world: World) -> LandBlock:
     heights = [f32(z) for z in record["heights"]]
     terrain = record.get("terrain") or (0,) * VERTICES
     block = LandBlock(world, block_id, range(VERTICES), terrain, heights)
+    block.side_cell_count = record.get("side_cell_count", SIDE_CELLS)
     block.generate()
     return block
 
@@ -133,9 +151,11 @@ def _block_under(building: Mapping[str, Any]) -> int:
 def _building(record: Mapping[str, Any], things: _Things) -> BuildingObj:
     """Make a building, its pose in the block that its origin is in."""
     pose = position(record["pose"])
-    gfxobj = oracle_geometry(things.geometries[record["geometry"]]).gfx_obj
-    one = Vector3(1.0, 1.0, 1.0)
-    parts = PartArray([PhysicsPart(gfxobj, pose.copy(), one)], None, one)
+    parts: PartArray | None = None
+    if record["geometry"] is not None:
+        gfxobj = oracle_geometry(things.geometries[record["geometry"]]).gfx_obj
+        one = Vector3(1.0, 1.0, 1.0)
+        parts = PartArray([PhysicsPart(gfxobj, pose.copy(), one)], None, one)
     portals = [BldPortal(portal["other"], portal["other_portal"]) for portal in record["portals"]]
     return BuildingObj(pose, parts, portals, things.world)
 
@@ -148,11 +168,18 @@ def _env_cell(record: Mapping[str, Any], things: _Things) -> EnvCell:
         position(record["pose"]),
         CellStruct(built.tree, built.cell_tree),
         things.world,
-        portals=[_portal(portal) for portal in record["portals"]],
+        portals=None if record["portals"] is None else [_portal(portal) for portal in record["portals"]],
     )
     cell.stab_list = tuple(record["stab"])
     cell.shadow_object_list = things.in_cell(cell.id)
+    cell.restriction = things.restriction(cell.id)
     return cell
+
+
+def _restriction(block: Mapping[str, Any]) -> Restriction:
+    """Make the question of a restricted cell; without its restriction object nobody is answered."""
+    known, admitted = block.get("object", 1), frozenset(block.get("admits", ()))
+    return lambda weenie: weenie.id in admitted if known else None
 
 
 def _portal(record: Mapping[str, Any]) -> CellPortal:

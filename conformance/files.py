@@ -1,0 +1,53 @@
+"""Writing files whole: what was there before stays until all that is new has reached the disk."""
+
+from __future__ import annotations
+
+import os
+import tempfile
+from contextlib import suppress
+from pathlib import Path
+
+
+def write_text(path: Path, text: str) -> None:
+    """Write a text file, in UTF-8 with line feeds; its folder is made if it is not there.
+
+    On a full disk, or when the process is killed, the old file stays as it was and no half of a new one is
+    left under its name.
+
+    Parameters
+    ----------
+    path : Path
+        Where to; a device or a pipe is written to directly.
+    text : str
+        The whole content.
+
+    Raises
+    ------
+    OSError
+        It cannot be written.
+    """
+    path.parent.mkdir(parents=True, exist_ok=True)
+    if path.exists() and not path.is_file():
+        path.write_text(text, encoding="utf-8", newline="\n")
+        return
+    place = path.resolve()  # of a link, what it leads to is replaced
+    handle, name = tempfile.mkstemp(prefix=f".{place.name}.", dir=place.parent)
+    scratch = Path(name)
+    try:
+        with open(handle, "w", encoding="utf-8", newline="\n") as stream:  # noqa: PTH123 - a handle
+            stream.write(text)
+            stream.flush()
+            os.fsync(stream.fileno())
+        scratch.chmod(place.stat().st_mode & 0o777 if place.exists() else 0o666 & ~_umask())
+        scratch.replace(place)
+    except BaseException:
+        with suppress(OSError):
+            scratch.unlink()
+        raise
+
+
+def _umask() -> int:
+    """Return the mask of new files, which can only be read by setting it."""
+    mask = os.umask(0)
+    os.umask(mask)
+    return mask

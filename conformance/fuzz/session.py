@@ -1,0 +1,144 @@
+"""One run of the fuzzer: a worker process, what it says while it runs, and what came of it."""
+
+from __future__ import annotations
+
+import re
+import subprocess
+import sys
+import time
+from collections import deque
+from dataclasses import dataclass
+from importlib.util import find_spec
+from typing import TYPE_CHECKING, Final
+
+if TYPE_CHECKING:
+    from collections.abc import Callable, Iterable, Sequence
+    from pathlib import Path
+
+    from conformance.fuzz.targets import Target
+
+LONGEST_INPUT: Final = 1024
+"""Bytes of an input; longer ones are slower and seldom reach more."""
+LONGEST_RUN: Final = 60
+"""Seconds after which one execution is a hang."""
+MOST_MEMORY: Final = 3000
+"""MB that the worker may take."""
+_SHOWN_LINES: Final = 40
+_PULSE: Final = re.compile(r"^#(\d+)\s.*exec/s: (\d+)")
+_DONE: Final = re.compile(r"^stat::number_of_executed_units: (\d+)")
+_ACCEPTED: Final = re.compile(r"^accepted: (\d+)")
+_WRITTEN: Final = re.compile(r"Test unit written to (.+)$")
+
+
+class FuzzerMissingError(Exception):
+    """Atheris, which comes with the extra `fuzz`, is not installed."""
+
+    def __init__(self) -> None:
+        super().__init__(
+            "the fuzzer is not installed: pip install 'retail-conformance[fuzz]' (atheris, for Linux)"
+        )
+
+
+@dataclass(slots=True)
+class Report:
+    """What came of a run.
+
+    Attributes
+    ----------
+    executed, accepted : int
+        How many inputs were given to the target, and how many of them it accepted.
+    seconds : float
+        Wall time.
+    finding : str
+        File of the input that raised, hung or took too much memory; empty if none did.
+    ended : str
+        How the run ended, if not by itself.
+    output : tuple of str
+        The last lines that the worker wrote.
+    """
+
+    executed: int = 0
+    accepted: int = 0
+    seconds: float = 0.0
+    finding: str = ""
+    ended: str = ""
+    output: tuple[str, ...] = ()
+
+
+def check_fuzzer() -> None:
+    """Raise `FuzzerMissingError` if atheris is not installed."""
+    if find_spec("atheris") is None:
+        raise FuzzerMissingError
+
+
+def fuzz(
+    target: Target,
+    folders: Sequence[Path],
+    *,
+    runs: int,
+    seed: int,
+    findings: Path,
+    say: Callable[[str], None],
+) -> Report:
+    """Run a target's worker to its end; Ctrl-C ends it early, and what is known by then is reported.
+
+    Parameters
+    ----------
+    target : Target
+        What is fuzzed.
+    folders : sequence of Path
+        Inputs to start from; new ones are written to the first.
+    runs : int
+        Executions.
+    seed : int
+        Of the fuzzer's choices; 0 takes a new one.
+    findings : Path
+        Folder, already there, into which an input that fails is written.
+    say : callable
+        Where to say how far it is.
+
+    Raises
+    ------
+    FuzzerMissingError
+    """
+    check_fuzzer()
+    command = [
+        *(sys.executable, "-m", "conformance.fuzz.worker", target.name),
+        *(f"-runs={runs}", f"-seed={seed}", f"-max_len={LONGEST_INPUT}", f"-timeout={LONGEST_RUN}"),
+        *(f"-rss_limit_mb={MOST_MEMORY}", "-print_final_stats=1", f"-artifact_prefix={findings}/"),
+        *map(str, folders),
+    ]
+    report, started = Report(), time.monotonic()
+    with subprocess.Popen(  # noqa: S603 - our own module, with arguments of our own
+        command, stderr=subprocess.PIPE, stdout=subprocess.DEVNULL, encoding="utf-8", errors="replace"
+    ) as worker:
+        try:
+            _follow(worker.stderr or (), report, say)
+        except KeyboardInterrupt:
+            worker.terminate()
+            report.ended = "broken off"
+    report.seconds = time.monotonic() - started
+    if not report.ended and worker.returncode:
+        report.ended = _ending(worker.returncode)
+    return report
+
+
+def _follow(lines: Iterable[str], report: Report, say: Callable[[str], None]) -> None:
+    last: deque[str] = deque(maxlen=_SHOWN_LINES)
+    for line in lines:
+        if pulse := _PULSE.match(line):
+            report.executed = int(pulse[1])
+            say(f"{pulse[1]} executions, {pulse[2]} a second")
+            continue
+        last.append(line.rstrip())
+        report.output = tuple(last)
+        if done := _DONE.match(line):
+            report.executed = int(done[1])
+        elif accepted := _ACCEPTED.match(line):
+            report.accepted = int(accepted[1])
+        elif written := _WRITTEN.search(line):
+            report.finding = written[1]
+
+
+def _ending(code: int) -> str:
+    return f"the worker was killed by signal {-code}" if code < 0 else f"the worker ended with code {code}"

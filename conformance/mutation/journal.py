@@ -1,0 +1,151 @@
+"""What has been found so far, on disk: a run that was ended goes on where it was."""
+
+from __future__ import annotations
+
+import hashlib
+import json
+from typing import TYPE_CHECKING, Any, Final
+
+from conformance.mutation.trial import Finding, Verdict
+
+if TYPE_CHECKING:
+    from collections.abc import Iterable, Mapping, Sequence
+    from pathlib import Path
+    from types import TracebackType
+    from typing import Self, TextIO
+
+    from conformance.mutation.asking import Question
+    from conformance.mutation.mutant import Key, Mutant
+
+_SUITE: Final = "suite"
+_DIGEST_DIGITS: Final = 16
+
+
+class JournalError(Exception):
+    """A file that is to be gone on with is not a journal; says which line."""
+
+
+class Journal:
+    """Findings, one a line, under a digest of the oracle and of what was asked.
+
+    Parameters
+    ----------
+    path : Path
+        The file.
+    digest : str
+        Of the oracle's sources and the questions; see `digest_of`.
+    resume : bool
+        Whether to take what the file holds. Findings under the same digest are taken as they are; of
+        findings under another one, the question that noticed a mutant is asked first.
+
+    Raises
+    ------
+    JournalError
+        The file holds something else.
+    OSError
+        It cannot be read.
+    """
+
+    def __init__(self, path: Path, digest: str, *, resume: bool) -> None:
+        self.path = path
+        self._digest = digest
+        lines = list(_read(path)) if resume and path.exists() else []
+        self._is_current = bool(lines) and lines[0].get(_SUITE) == digest
+        self._records = {_key(line): line for line in lines[1:]}
+        self._file: TextIO | None = None
+
+    def __enter__(self) -> Self:
+        self.path.parent.mkdir(parents=True, exist_ok=True)
+        self._file = self.path.open("w", encoding="utf-8", newline="\n")
+        self._write({_SUITE: self._digest})
+        for record in self._records.values():
+            self._write(record if self._is_current else {**record, "verdict": None})
+        return self
+
+    def __exit__(
+        self,
+        kind: type[BaseException] | None,
+        error: BaseException | None,
+        traceback: TracebackType | None,
+    ) -> None:
+        if self._file is not None:
+            self._file.close()
+
+    def finding(self, mutant: Mutant) -> Finding | None:
+        """Return what is known of a mutant, if it was found out with the same oracle and questions."""
+        record = self._records.get(mutant.key)
+        if record is None or not self._is_current or not record["verdict"]:
+            return None
+        return Finding(mutant, Verdict[record["verdict"]], record["by"], record["output"], record["asked"])
+
+    def hint(self, mutant: Mutant) -> str:
+        """Return the name of the question that noticed a mutant before, empty if none did."""
+        record = self._records.get(mutant.key)
+        return record["by"] if record else ""
+
+    def note(self, finding: Finding) -> None:
+        """Write down a finding at once."""
+        *key, nth = finding.mutant.key
+        self._write(
+            {
+                "mutant": [*key, nth],
+                "verdict": finding.verdict.name,
+                "by": finding.by,
+                "output": finding.output,
+                "asked": finding.asked,
+            }
+        )
+
+    def _write(self, record: Mapping[str, Any]) -> None:
+        if self._file is None:
+            raise ValueError("the journal is not open: use it in a with block")
+        self._file.write(json.dumps(record, ensure_ascii=False) + "\n")
+        self._file.flush()
+
+
+def digest_of(sources: Mapping[str, str], questions: Sequence[Question]) -> str:
+    """Return what stands for the oracle's sources and for all that is asked."""
+    content = hashlib.sha256()
+    for text in _texts(sources, questions):
+        content.update(text.encode("utf-8"))
+        content.update(b"\0")
+    return content.hexdigest()[:_DIGEST_DIGITS]
+
+
+def _texts(sources: Mapping[str, str], questions: Sequence[Question]) -> Iterable[str]:
+    for file, source in sources.items():
+        yield from (file, source)
+    for question in questions:
+        query = question.query
+        geometries = {name: geometry.to_record() for name, geometry in query.geometries.items()}
+        yield from (question.name, query.op, repr(query.inputs), repr(geometries))
+
+
+def _read(path: Path) -> Iterable[dict[str, Any]]:
+    for number, line in enumerate(path.read_text(encoding="utf-8").splitlines(), start=1):
+        try:
+            record = json.loads(line)
+            wrong = "" if _is_known(record) else "neither a digest nor a finding"
+        except ValueError as error:
+            wrong = f"no JSON: {error}"
+        if wrong:
+            raise JournalError(f"{path}:{number}: found {wrong}, expected the journal of a run of mutants")
+        yield record
+
+
+def _is_known(record: Any) -> bool:
+    return isinstance(record, dict) and (_SUITE in record or _is_finding(record))
+
+
+def _is_finding(record: dict[str, Any]) -> bool:
+    fields = {"verdict": str | None, "by": str, "output": str, "asked": int}
+    key = record["mutant"] if isinstance(record.get("mutant"), list) else []
+    kinds = (str, str, str, str, int)
+    fits = len(key) == len(kinds) and all(map(isinstance, key, kinds))
+    known = record.get("verdict") is None or record["verdict"] in Verdict.__members__
+    return fits and known and all(isinstance(record.get(name), kind) for name, kind in fields.items())
+
+
+def _key(record: dict[str, Any]) -> Key:
+    function, operator, before, after, nth = record["mutant"]
+    return function, operator, before, after, nth

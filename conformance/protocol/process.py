@@ -1,0 +1,208 @@
+"""An engine's process: lines to its stdin and from its stdout, its log, and its end.
+
+Pipes are read and written by threads, on every platform the same, so that an engine that does not read, does
+not write, or writes too much can neither stop the suite nor fill its memory.
+"""
+
+from __future__ import annotations
+
+import contextlib
+import os
+import queue
+import shlex
+import signal
+import subprocess
+import sys
+import threading
+import weakref
+from typing import IO, TYPE_CHECKING, Final
+
+from conformance.protocol.messages import MOST_BYTES
+
+if TYPE_CHECKING:
+    from collections.abc import Callable
+
+_MOST_WAITING: Final = 16
+"""Lines of the engine that wait to be read; an engine that writes more has to wait itself."""
+_LOG_BYTES: Final = 1 << 14
+"""How much of the end of an engine's stderr is kept."""
+_LOG_CHUNK: Final = 1 << 12
+_EXIT_SECONDS: Final = 2.0
+"""How long a process that was killed, and the threads that served it, may take to end."""
+_TASKKILL: Final = "taskkill"
+
+
+class CommandError(ValueError):
+    """A command line that is empty, or whose quotation marks do not match."""
+
+
+class ProcessStartError(Exception):
+    """The engine's program cannot be run."""
+
+
+class ReadTimeoutError(Exception):
+    """The engine has not written a line in time."""
+
+
+class EngineProcess:
+    """A running engine.
+
+    Parameters
+    ----------
+    command : str
+        Program and arguments, as one would type them; no shell is involved.
+
+    Raises
+    ------
+    CommandError, ProcessStartError
+    """
+
+    def __init__(self, command: str) -> None:
+        self._process = _spawn(command)
+        self._lines: queue.Queue[bytes] = queue.Queue(_MOST_WAITING)
+        self._outgoing: queue.SimpleQueue[bytes | None] = queue.SimpleQueue()
+        self._log = bytearray()
+        self._reader = _thread(_read_lines, self._process.stdout, self._lines)
+        self._logger = _thread(_read_log, self._process.stderr, self._log)
+        self._writer = _thread(_write_lines, self._process.stdin, self._outgoing)
+        self._finalizer = weakref.finalize(self, _kill_tree, self._process)
+
+    def send(self, line: bytes) -> None:
+        """Write a line, some time; if the engine is gone, its end is noticed by `receive`."""
+        self._outgoing.put(line)
+
+    def receive(self, seconds: float) -> bytes:
+        """Return the next line that the engine writes, or nothing if it has ended.
+
+        Raises
+        ------
+        ReadTimeoutError
+            If it writes none in time.
+        """
+        try:
+            line = self._lines.get(timeout=seconds)
+        except queue.Empty:
+            raise ReadTimeoutError from None
+        if not line:
+            self._lines.put(line)
+        return line
+
+    def close_input(self) -> None:
+        """Let the engine see the end of its stdin, after what was sent."""
+        self._outgoing.put(None)
+
+    def wait(self, seconds: float) -> int | None:
+        """Return the exit status, or None if the engine runs on."""
+        try:
+            return self._process.wait(seconds)
+        except subprocess.TimeoutExpired:
+            return None
+
+    def kill(self) -> None:
+        """End the engine and whatever it has started, and the threads that served it."""
+        self._finalizer()
+        self._outgoing.put(None)
+        while self._reader.is_alive():
+            with contextlib.suppress(queue.Empty):
+                self._lines.get_nowait()
+            self._reader.join(0.01)
+        self._writer.join(_EXIT_SECONDS)
+        self._logger.join(_EXIT_SECONDS)
+
+    def log(self) -> str:
+        """Return the end of what the engine has written to stderr."""
+        if self._process.poll() is not None:
+            self._logger.join(_EXIT_SECONDS)
+        return bytes(self._log).decode("utf-8", errors="replace").replace("\r\n", "\n").rstrip("\n")
+
+
+def split_command(command: str) -> list[str] | str:
+    """Return what starts a command: its words, or on Windows the command itself, whose program splits it.
+
+    Raises
+    ------
+    CommandError
+    """
+    if not command.strip():
+        raise CommandError("found no command, expected a program, as in cmd:./my-engine")
+    try:
+        return command if sys.platform == "win32" else shlex.split(command)
+    except ValueError as error:
+        raise CommandError(f"{command!r}: {error}") from None
+
+
+def describe_exit(status: int | None) -> str:
+    """Say how a process has ended."""
+    if status is None:
+        return "closed its stdout and runs on"
+    if status < 0:
+        with contextlib.suppress(ValueError):
+            return f"was ended by {signal.Signals(-status).name}"
+    shown = f"{status}" if status < 256 else f"0x{status:08X}"  # Windows: an NTSTATUS
+    return f"ended with exit status {shown}"
+
+
+def _spawn(command: str) -> subprocess.Popen[bytes]:
+    words = split_command(command)
+    flags = 0
+    if sys.platform == "win32":
+        flags = subprocess.CREATE_NEW_PROCESS_GROUP
+    try:
+        return subprocess.Popen(  # noqa: S603 - the user names the engine that is to be run
+            words,
+            stdin=subprocess.PIPE,
+            stdout=subprocess.PIPE,
+            stderr=subprocess.PIPE,
+            start_new_session=sys.platform != "win32",  # a group of its own, which can be ended as one
+            creationflags=flags,
+        )
+    except OSError as error:
+        raise ProcessStartError(f"cannot run {command!r}: {error.strerror or error}") from error
+
+
+def _thread(serve: Callable[..., None], *arguments: object) -> threading.Thread:
+    thread = threading.Thread(target=serve, args=arguments, daemon=True)
+    thread.start()
+    return thread
+
+
+def _read_lines(stdout: IO[bytes], lines: queue.Queue[bytes]) -> None:
+    with stdout:
+        while line := stdout.readline(MOST_BYTES + 1):
+            lines.put(line)
+            if len(line) > MOST_BYTES:
+                break  # nothing after it can be a reply
+    lines.put(b"")
+
+
+def _read_log(stderr: IO[bytes], log: bytearray) -> None:
+    with stderr:
+        while chunk := os.read(stderr.fileno(), _LOG_CHUNK):
+            log += chunk
+            del log[:-_LOG_BYTES]
+
+
+def _write_lines(stdin: IO[bytes], outgoing: queue.SimpleQueue[bytes | None]) -> None:
+    with contextlib.suppress(OSError), stdin:  # a broken pipe: the reader sees how the engine ended
+        while (line := outgoing.get()) is not None:
+            stdin.write(line)
+            if outgoing.empty():
+                stdin.flush()
+
+
+def _kill_tree(process: subprocess.Popen[bytes]) -> None:
+    """End a process and its children; also at the end of the suite, however that comes."""
+    if process.returncode is not None:
+        return  # its number may be another's by now
+    if sys.platform == "win32":
+        subprocess.run(  # noqa: S603 - a number
+            [_TASKKILL, "/T", "/F", "/PID", str(process.pid)],
+            stdout=subprocess.DEVNULL,
+            stderr=subprocess.DEVNULL,
+            check=False,
+        )
+    else:
+        with contextlib.suppress(ProcessLookupError, PermissionError):
+            os.killpg(process.pid, signal.SIGKILL)
+    with contextlib.suppress(subprocess.TimeoutExpired):
+        process.wait(_EXIT_SECONDS)

@@ -1,0 +1,148 @@
+"""Reading what an engine writes: exactly one of a result, a reason to skip, and an error, or a bad reply."""
+
+from __future__ import annotations
+
+import json
+from typing import Any, Final
+
+from conformance.fields import FieldError
+from conformance.protocol.dialects import Dialect, read_outputs
+from conformance.protocol.messages import MOST_BYTES
+from conformance.query import Errored, Outcome, Result, Skipped
+
+_BODIES: Final = ("result", "skipped", "errored")
+_MOST_SHOWN: Final = 120
+"""Characters of a bad reply that are shown."""
+_JSON_NUMBERS: Final = {"NaN": "nan", "Infinity": "inf", "-Infinity": "-inf"}
+
+
+class BadReplyError(Exception):
+    """A line of an engine that is not the reply that was awaited.
+
+    Attributes
+    ----------
+    found, expected : str
+        What the line is, and what it should have been.
+    """
+
+    def __init__(self, found: str, expected: str) -> None:
+        self.found = found
+        self.expected = expected
+        super().__init__(f"bad reply: found {found}, expected {expected}")
+
+
+def read_reply(line: bytes, seq: int) -> dict[str, Any]:
+    """Read the envelope of a reply.
+
+    Parameters
+    ----------
+    line : bytes
+        What the engine wrote, line end included.
+    seq : int
+        The number of the message that it must answer.
+
+    Returns
+    -------
+    dict
+        The reply; it has exactly one of ``result``, ``skipped`` and ``errored``.
+
+    Raises
+    ------
+    BadReplyError
+        If it is too long, not JSON, not a reply, or the reply to another message.
+    """
+    reply = _parsed(line)
+    if not isinstance(reply, dict):
+        raise BadReplyError(f"{_shown(line)}, which is not an object", _example(seq))
+    bodies = [key for key in _BODIES if key in reply]
+    others = [key for key in reply if key not in {"seq", *_BODIES}]
+    if others:
+        raise BadReplyError(f"the extra field {others[0]!r}", _example(seq))
+    _check_sequence(reply, seq, line)
+    if len(bodies) != 1:
+        found = " and ".join(bodies) if bodies else f"neither of the three in {_shown(line)}"
+        raise BadReplyError(found, "exactly one of result, skipped, errored")
+    _check_body(bodies[0], reply[bodies[0]])
+    return reply
+
+
+def outcome_of(reply: dict[str, Any], op: str, dialect: Dialect) -> Outcome:
+    """Read what a reply to `run` says.
+
+    Raises
+    ------
+    BadReplyError
+        If the result is not of the operation's shape.
+    """
+    if "skipped" in reply:
+        return Skipped(reply["skipped"]["reason"])
+    if "errored" in reply:
+        return Errored(reply["errored"]["context"])
+    try:
+        return Result(read_outputs(op, reply["result"], dialect))
+    except FieldError as error:
+        where = f"result.{error.path}" if error.path else "result"
+        raise BadReplyError(f"{error.found} at {where}", error.expected) from None
+
+
+def _parsed(line: bytes) -> Any:
+    if len(line) > MOST_BYTES:
+        raise BadReplyError(
+            f"a line of more than {MOST_BYTES} bytes, beginning {_shown(line)}", "a shorter line"
+        )
+    if not line.endswith(b"\n"):
+        raise BadReplyError(f"{_shown(line)} without a line end", "whole lines")
+    try:
+        return _DECODER.decode(line.decode("utf-8"))
+    except UnicodeDecodeError as error:
+        raise BadReplyError(f"bytes that are not UTF-8 at column {error.start + 1}", "UTF-8") from None
+    except json.JSONDecodeError as error:
+        found = f"{_shown(line)}, which is not JSON ({error.msg}, column {error.colno})"
+        raise BadReplyError(found, "one JSON object a line on stdout, and nothing else there") from None
+    except (ValueError, RecursionError) as error:
+        raise BadReplyError(str(error), "JSON") from None
+
+
+def _check_sequence(reply: dict[str, Any], seq: int, line: bytes) -> None:
+    if "seq" not in reply:
+        raise BadReplyError(f"no seq in {_shown(line)}", f"seq {seq}")
+    found = reply["seq"]
+    if type(found) is not int:
+        raise BadReplyError(f"seq {found!r}", f"seq {seq}, a whole number")
+    if found < seq:
+        raise BadReplyError(f"seq {found}, which has been answered before", f"seq {seq}")
+    if found > seq:
+        raise BadReplyError(f"seq {found}, which is not its turn", f"seq {seq}; replies come in order")
+
+
+def _check_body(name: str, body: Any) -> None:
+    found = f"{name}: {_cut(repr(body))}"
+    if name == "result":
+        if not isinstance(body, dict):
+            raise BadReplyError(found, "result: an object")
+        return
+    key = "reason" if name == "skipped" else "context"
+    if not isinstance(body, dict) or set(body) != {key} or not isinstance(body[key], str):
+        raise BadReplyError(found, f'{name}: {{"{key}": a text}}')
+
+
+def _example(seq: int) -> str:
+    return f'{{"seq": {seq}, and one of "result", "skipped", "errored"}}'
+
+
+def _shown(line: bytes) -> str:
+    text = line[: 4 * _MOST_SHOWN].decode("utf-8", errors="replace").rstrip("\r\n")
+    return repr(_cut(text))
+
+
+def _cut(text: str) -> str:
+    return text if len(text) <= _MOST_SHOWN else text[: _MOST_SHOWN - 3] + "..."
+
+
+def _refuse_constant(name: str) -> float:
+    raise ValueError(
+        f'{name}, which is not JSON; a float of that value is the string "{_JSON_NUMBERS[name]}"'
+    )
+
+
+_DECODER: Final = json.JSONDecoder(parse_constant=_refuse_constant)

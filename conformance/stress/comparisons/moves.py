@@ -1,0 +1,117 @@
+"""Comparisons of document 05 that only a whole move decides: steps at their limits, and moves too short."""
+
+from __future__ import annotations
+
+from functools import cache
+from typing import TYPE_CHECKING, Any, Final
+
+from conformance.scenes.bsp_builder import TreeStyle, build
+from conformance.scenes.polygons import place
+from conformance.scenes.primitives import floor
+from conformance.scenes.solids import box
+from conformance.strategies.human import HUMAN, MOVER
+from conformance.stress.comparisons.base import Comparison
+from conformance.stress.moves import CELL, IDENTITY, ON_GROUND, pose
+from conformance.vector_io import query_from_record
+
+if TYPE_CHECKING:
+    from conformance.query import Fields, Query
+    from conformance.scenes.model import Geometry, Vec3
+
+STEP: Final = 0.5
+"""Height of the step, metres."""
+SHARE: Final = 4
+"""What the edge of the squares is divided by: a whole move takes a thousand times as long as one call."""
+
+
+@cache
+def _step() -> Geometry:
+    """Make a floor with a block that is one step high."""
+    shape = floor(size=(8.0, 8.0)) + place(box(size=(2.0, 4.0, STEP))[1:], (2.0, 0.0, 0.0), 0.0)
+    return build("step", shape, style=TreeStyle.BOTH, kind="stress")
+
+
+def _move(start: Vec3, end: Vec3, height: float, **mover: float) -> Query:
+    plane = {"plane": [0.0, 0.0, 1.0, -height], "cell": CELL, "is_water": 0}
+    record: dict[str, Any] = {
+        "op": "transition",
+        "cells": [{"id": CELL, "pose": pose(IDENTITY, (0.0, 0.0, 0.0)), "geometry": _step().name}],
+        "mover": {**MOVER, "spheres": HUMAN, "state": ON_GROUND, **mover},
+        "from": pose(IDENTITY, start),
+        "to": pose(IDENTITY, end),
+        "begin_cell": CELL,
+        "seed": {"contact": plane, "last_known": plane},
+    }
+    return query_from_record(record, {_step().name: _step()})
+
+
+def _up(limit: float, x: float) -> Query:
+    return _move((0.4, 0.1, 0.0), (x, 0.1, 0.0), 0.0, step_up_height=limit)
+
+
+def _down(limit: float, x: float) -> Query:
+    start, end = (1.3, 0.1, STEP), (x, 0.1, STEP)
+    return _move(start, end, STEP, step_down_height=limit, state=0x103)
+
+
+def _short(x: float, y: float) -> Query:
+    return _move((-2.0, 0.1, 0.0), (x, y, 0.0), 0.0)
+
+
+def _sub_steps(x: float, y: float) -> Query:
+    return _move((-3.0, 0.1, 0.0), (x, y, 0.0), 0.0)
+
+
+def _is_up(fields: Fields) -> bool:
+    return bool(fields["curr"]["origin"][2] > STEP / 2)
+
+
+def _is_down(fields: Fields) -> bool:
+    return bool(fields["contact_plane"]["valid"])
+
+
+def _has_moved(fields: Fields) -> bool:
+    return bool(fields["curr"]["origin"][0] > -2.0)
+
+
+def _is_one_step(fields: Fields) -> bool:
+    """Every sub-step over open ground is one contact call, that nothing is in the way of."""
+    return bool(fields["trace"].count("K") == 1)
+
+
+MOVES: Final = (
+    Comparison(
+        "one sub-step",
+        "05 calc_num_steps",
+        ("end x (m)", "end y (m)"),
+        _sub_steps,
+        _is_one_step,
+        (-2.9, -2.2),
+        0.25,
+        SHARE,
+    ),
+    Comparison(
+        "step up at its limit",
+        "05 step_up",
+        ("step_up_height (m)", "end x (m)"),
+        _up,
+        _is_up,
+        (0.3, 0.8),
+        0.7,
+        SHARE,
+    ),
+    Comparison(
+        "step down at its limit",
+        "05 step_down",
+        ("step_down_height (m)", "end x (m)"),
+        _down,
+        _is_down,
+        (0.1, 0.8),
+        0.4,
+        SHARE,
+    ),
+    Comparison(
+        "move too short", "05 FT-9", ("end x (m)", "end y (m)"), _short, _has_moved, (-2.0, -1.9), 0.1, SHARE
+    ),
+)
+"""Squares of these are smaller."""
