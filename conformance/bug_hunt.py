@@ -229,8 +229,14 @@ def first_difference(query: Query, truth: Outcome, given: Outcome) -> str:
     return names[0] if names else ""
 
 
-def draw_queries(queries: st.SearchStrategy[Query], draws: int, ask: Callable[[Query, int], None]) -> None:
-    """Draw queries, the same in every run, and hand each one on with its number."""
+def draw_queries(
+    queries: st.SearchStrategy[Query],
+    draws: int,
+    ask: Callable[[Query, int], None],
+    *,
+    draw_seed: int = _SEED,
+) -> None:
+    """Draw queries, the same in every run with a seed, and hand each one on with its number."""
     count = 0
 
     def take(query: Query) -> None:
@@ -245,4 +251,4 @@ def draw_queries(queries: st.SearchStrategy[Query], draws: int, ask: Callable[[Q
         deadline=None,
         suppress_health_check=list(HealthCheck),
     )
-    seed(_SEED)(once(given(queries)(take)))()
+    seed(draw_seed)(once(given(queries)(take)))()

@@ -13,12 +13,18 @@ from conformance.commands import (
     bench,
     bugs,
     coverage,
+    deviations,
     errors,
+    explain,
     export,
+    fmt,
     fuzz,
+    gate,
     lint,
     list_cases,
     mutants,
+    new,
+    report,
     serve,
     show,
     smoke,
@@ -39,14 +45,20 @@ _COMMANDS: Final[dict[str, ModuleType]] = {
     "verify": verify,
     "export": export,
     "lint": lint,
+    "fmt": fmt,
     "list": list_cases,
+    "new": new,
     "bugs": bugs,
+    "deviations": deviations,
+    "gate": gate,
     "coverage": coverage,
     "mutants": mutants,
+    "explain": explain,
     "trace": trace,
     "trace-log": trace_log,
     "bench": bench,
     "show": show,
+    "report": report,
     "errors": errors,
     "fuzz": fuzz,
     "stress": stress,
@@ -65,8 +77,8 @@ The cases themselves run under pytest:
 def main(argv: Sequence[str] | None = None) -> int:
     """Run one command and return the exit code.
 
-    0 all is well, 1 something differs or is wrong, 2 the command line is wrong, 4 nothing was compared,
-    5 the results could not be written, 130 Ctrl-C ended the run.
+    0 all is well, 1 something differs or is wrong, 2 the command line is wrong, 3 the candidate gives no
+    answers (`gate`), 4 nothing was compared, 5 the results could not be written, 130 Ctrl-C ended the run.
     """
     tolerate_unprintable()
     parser = _make_parser()

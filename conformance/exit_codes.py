@@ -8,6 +8,8 @@ OK: Final = 0
 FAILURES: Final = 1
 """Something was compared and differs, or could not be read."""
 USAGE: Final = 2
+BROKEN: Final = 3
+"""The candidate gave no answer to something: it crashed, hung or replied badly; what it answered is right."""
 NOTHING_RAN: Final = 4
 """Nothing was compared, so nothing was shown to be right."""
 CANNOT_WRITE: Final = 5

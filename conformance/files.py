@@ -9,7 +9,12 @@ from pathlib import Path
 
 
 def write_text(path: Path, text: str) -> None:
-    """Write a text file, in UTF-8 with line feeds; its folder is made if it is not there.
+    """Write a text file, in UTF-8 with line feeds, as `write_bytes` does."""
+    write_bytes(path, text.encode())
+
+
+def write_bytes(path: Path, content: bytes) -> None:
+    """Write a file; its folder is made if it is not there.
 
     On a full disk, or when the process is killed, the old file stays as it was and no half of a new one is
     left under its name.
@@ -18,8 +23,8 @@ def write_text(path: Path, text: str) -> None:
     ----------
     path : Path
         Where to; a device or a pipe is written to directly.
-    text : str
-        The whole content.
+    content : bytes
+        All of it.
 
     Raises
     ------
@@ -28,14 +33,14 @@ def write_text(path: Path, text: str) -> None:
     """
     path.parent.mkdir(parents=True, exist_ok=True)
     if path.exists() and not path.is_file():
-        path.write_text(text, encoding="utf-8", newline="\n")
+        path.write_bytes(content)
         return
     place = path.resolve()  # of a link, what it leads to is replaced
     handle, name = tempfile.mkstemp(prefix=f".{place.name}.", dir=place.parent)
     scratch = Path(name)
     try:
-        with open(handle, "w", encoding="utf-8", newline="\n") as stream:  # noqa: PTH123 - a handle
-            stream.write(text)
+        with open(handle, "wb") as stream:  # noqa: PTH123 - a handle
+            stream.write(content)
             stream.flush()
             os.fsync(stream.fileno())
         scratch.chmod(place.stat().st_mode & 0o777 if place.exists() else 0o666 & ~_umask())

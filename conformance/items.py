@@ -9,6 +9,8 @@ from typing import TYPE_CHECKING, Any, Final
 import pytest
 
 from conformance.candidates.registry import make_candidate
+from conformance.deviations.known import deviations_of, today
+from conformance.deviations.reckoning import reckon
 from conformance.loader import Vary, duplicate_id, load_file
 from conformance.plugin import CANDIDATES
 from conformance.summary import PROPERTY
@@ -18,10 +20,11 @@ from conformance.verdict import judge
 
 if TYPE_CHECKING:
     import os
-    from collections.abc import Iterator
+    from collections.abc import Iterator, Sequence
     from pathlib import Path
 
     from conformance.candidates.base import Candidate
+    from conformance.deviations.reckoning import Reckoning
     from conformance.loader import Case
     from conformance.source import Location, Problem
     from conformance.verdict import Failure, Verdict
@@ -31,6 +34,8 @@ DEFAULT_TOPICS: Final = "cp-write"
 MOST_SOURCE_LINES: Final = 60
 """Lines of a case's source shown with its failure."""
 
+_ASKING: Final = ("--trace-writes", "--read-timeout")
+"""Options of a run that change how it is asked and told, not what."""
 _IDS: Final = pytest.StashKey["dict[str, Location]"]()
 
 
@@ -40,6 +45,14 @@ class CaseFailedError(Exception):
     def __init__(self, verdict: Verdict) -> None:
         super().__init__(verdict.failures[0].summary)
         self.verdict = verdict
+
+
+class DeviationFailedError(Exception):
+    """What is recorded of a candidate does not show, or no longer holds."""
+
+    def __init__(self, complaints: Sequence[str]) -> None:
+        super().__init__("\n".join(complaints))
+        self.complaints = complaints
 
 
 class UnreadableCaseError(Exception):
@@ -111,10 +124,17 @@ class CaseItem(pytest.Item):
     def runtest(self) -> None:
         """Ask retail and the candidate, and compare."""
         __tracebackhide__ = True
-        verdict = judge(self.case, self._candidate(), candidate_of(self.config, "oracle"))
-        self.user_properties.append((PROPERTY, self._counts(verdict)))
-        if verdict.failures:
-            raise CaseFailedError(verdict)
+        candidate, known = self._candidate(), deviations_of(self.config)
+        verdict = judge(self.case, candidate, candidate_of(self.config, "oracle"))
+        reckoning = reckon(known, self.case.id, verdict, candidate=candidate.name, today=today())
+        self.user_properties.append((PROPERTY, self._counts(verdict, reckoning)))
+        if reckoning.unexplained:
+            raise CaseFailedError(replace(verdict, failures=list(reckoning.unexplained)))
+        if reckoning.complaints:
+            raise DeviationFailedError(reckoning.complaints)
+        if reckoning.held:
+            reasons = dict.fromkeys(entry.deviation.reason for entry in reckoning.held)
+            raise pytest.xfail.Exception(f"deviation: {'; '.join(reasons)}")
         if not verdict.compared:
             reason = "; ".join(verdict.skipped)
             raise pytest.skip.Exception(reason, _use_item_location=True)
@@ -122,11 +142,15 @@ class CaseItem(pytest.Item):
     def _candidate(self) -> Candidate:
         return candidate_of(self.config, self.config.getoption("--candidate", "engine"))
 
-    def _counts(self, verdict: Verdict) -> dict[str, Any]:
+    def _counts(self, verdict: Verdict, reckoning: Reckoning) -> dict[str, Any]:
         counts = {"cases": 1, "queries": verdict.compared, "skipped": dict(verdict.skipped)}
-        if verdict.failures:
-            first = verdict.failures[0]
+        if reckoning.unexplained:
+            first = reckoning.unexplained[0]
             counts["failure"] = f"{first.query.label}: {first.summary}"
+        elif reckoning.complaints:
+            counts["failure"] = f"{self.case.id}: {reckoning.complaints[0]}"
+        elif reckoning.held:
+            counts["deviations"] = 1
         return counts
 
     def reportinfo(self) -> tuple[os.PathLike[str] | str, int | None, str]:
@@ -135,6 +159,8 @@ class CaseItem(pytest.Item):
 
     def repr_failure(self, excinfo: pytest.ExceptionInfo[BaseException], style: Any = None) -> Any:
         """Explain the first failure, show the case's source, and name the other variants that failed."""
+        if isinstance(excinfo.value, DeviationFailedError):
+            return self._told_deviations(excinfo, excinfo.value)
         if not isinstance(excinfo.value, CaseFailedError):
             return super().repr_failure(excinfo, style)
         failures = excinfo.value.verdict.failures
@@ -145,6 +171,11 @@ class CaseItem(pytest.Item):
             text.append(f"  also: {labels}")
         text += ["", f"  retail: {'; '.join(self.case.retail)}", "", f"{self.case.location}", *self._source()]
         return _told(excinfo, self.case.location, first.summary, "\n".join(text))
+
+    def _told_deviations(
+        self, excinfo: pytest.ExceptionInfo[BaseException], error: DeviationFailedError
+    ) -> Any:
+        return _told(excinfo, self.case.location, error.complaints[0], "\n".join(error.complaints))
 
     def _with_writes(self, failure: Failure) -> Failure:
         """Add who wrote what, by asking once more."""
@@ -165,7 +196,7 @@ class CaseItem(pytest.Item):
     def rerun_command(self) -> str:
         """Return the command that runs only this case."""
         parts = ["pytest", f"{_relative(self.path, self.config.invocation_params.dir)}::{self.name}"]
-        for option in ("--candidate", "--poses", "--pose-seed", "--trace-writes", "--read-timeout"):
+        for option in ("--candidate", "--deviations", "--poses", "--pose-seed", *_ASKING):
             value = self.config.getoption(option, None)
             if value is not None and value != "engine":
                 parts += [option, str(value)]

@@ -4,8 +4,10 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
+from conformance.deviations.files import FOLDER, DeviationError, problems_among, read_deviations
 from conformance.loader import load_paths
 from conformance.source import Problem
+from conformance.yaml_source import YamlError
 
 if TYPE_CHECKING:
     from collections.abc import Iterator, Sequence
@@ -17,27 +19,48 @@ LONGEST_TITLE = 110
 """Characters; a longer title does not fit a report's line."""
 
 
-def lint(paths: Sequence[Path] = ()) -> list[Problem]:
-    """Find everything that is wrong with case files.
+def lint(paths: Sequence[Path] = (), *, deviations: Sequence[Path] = ()) -> list[Problem]:
+    """Find everything that is wrong with case files, and with deviation files beside them.
 
     Parameters
     ----------
     paths : sequence of Path
         Files, or folders to search; without any, the cases of the package.
+    deviations : sequence of Path
+        Deviation files, whose entries must be about some of the cases, but not about many.
 
     Returns
     -------
     list of Problem
-        Mistakes that keep a case from running, then those of style, each in file order.
+        Mistakes that keep a case from running, those of style, those of deviations, each in file order.
 
     Raises
     ------
     NoCasesError
         A path is not there or holds no case file.
+    OSError
+        A deviation file cannot be read at all.
     """
     loaded = load_paths(paths)
     style = [problem for case in loaded.cases for problem in style_problems(case)]
-    return [*loaded.problems, *style]
+    ids = [case.id for case in loaded.cases]
+    recorded = [problem for path in deviations for problem in deviation_problems(path, ids)]
+    return [*loaded.problems, *style, *recorded]
+
+
+def own_deviations() -> list[Path]:
+    """List the deviation files that come with the suite."""
+    return sorted(FOLDER.glob("*.yaml"))
+
+
+def deviation_problems(path: Path, case_ids: Sequence[str]) -> list[Problem]:
+    """Find everything that is wrong with a deviation file, given the ids of all cases."""
+    try:
+        return list(problems_among(read_deviations(path), case_ids))
+    except DeviationError as error:
+        return error.problems
+    except YamlError as error:
+        return [error.problem]
 
 
 def style_problems(case: Case) -> Iterator[Problem]:

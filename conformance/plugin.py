@@ -75,6 +75,12 @@ def pytest_addoption(parser: pytest.Parser) -> None:
         metavar="DIR",
         help=f"folder of real cells, for the tests that use them (default: ${FIXTURES_VARIABLE})",
     )
+    group.addoption(
+        "--deviations",
+        metavar="FILE",
+        help="how the candidate is known to differ from retail: a file, or the name of an engine that the "
+        "suite knows (default: the candidate's own, if it has one)",
+    )
     group.addoption("--poses", type=int, metavar="N", help="random poses in which to run each scene case")
     group.addoption("--pose-seed", type=int, metavar="N", help="seed of the random poses")
     group.addoption(
@@ -91,6 +97,7 @@ def pytest_configure(config: pytest.Config) -> None:
     given = [_case_path(text) for text in config.getoption("--cases", [])]
     _check_candidate(config)
     _check_topics(config)
+    _check_deviations(config)
     config.stash[_COLLECTED] = 0
     config.stash[_COMPLAINTS] = []
     config.stash[_TALLY] = Tally()
@@ -149,6 +156,17 @@ def _check_topics(config: pytest.Config) -> None:
             raise pytest.UsageError(f"--trace-writes: {error}") from error
 
 
+def _check_deviations(config: pytest.Config) -> None:
+    """Refuse a deviation file with mistakes at once; the default is read only when a case is run."""
+    if config.getoption("--deviations", None) is not None:
+        from conformance.deviations.known import BadDeviationsError, deviations_of
+
+        try:
+            deviations_of(config)
+        except BadDeviationsError as error:
+            raise pytest.UsageError(f"--deviations: {error}") from error
+
+
 def _covers(config: pytest.Config, place: Path) -> bool:
     """Tell whether the run is asked to visit a place: it, or a folder above it, is an argument."""
     asked = [Path(arg).resolve() for arg in config.args if "::" not in arg]
@@ -196,6 +214,10 @@ def pytest_collection_modifyitems(config: pytest.Config, items: list[pytest.Item
     if cases:
         found = _found_folder(config)
         items.sort(key=lambda item: not item.path.resolve().is_relative_to(found))
+        from conformance.deviations.known import unknown_cases
+
+        folders = config.stash[_FOLDERS]
+        config.stash[_COMPLAINTS] += unknown_cases(config, cases, folders)
 
 
 @pytest.hookimpl(trylast=True)
@@ -238,7 +260,8 @@ def pytest_testnodedown(node: Any, error: object) -> None:
     output = getattr(node, "workeroutput", {})
     stash = node.config.stash
     stash[_COLLECTED] = max(stash[_COLLECTED], output.get(_WORKER_OUTPUT, 0))
-    stash[_COMPLAINTS] += output.get(_WORKER_COMPLAINTS, ())
+    told = stash[_COMPLAINTS]
+    told += [text for text in output.get(_WORKER_COMPLAINTS, ()) if text not in told]
 
 
 def pytest_terminal_summary(terminalreporter: Any, config: pytest.Config) -> None:

@@ -25,6 +25,8 @@ class Counts:
         YAML cases run; their queries compared, random poses included; queries of the random tests.
     skipped : Counter
         Queries that were not compared, by reason.
+    deviations : int
+        Cases that fail as it is recorded of the candidate.
     reasons : list of str
         The first difference of each failed case, in a line.
     """
@@ -33,6 +35,7 @@ class Counts:
     queries: int = 0
     random: int = 0
     skipped: Counter[str] = field(default_factory=Counter)
+    deviations: int = 0
     reasons: list[str] = field(default_factory=list)
 
     def add(self, properties: Iterable[tuple[str, Any]]) -> None:
@@ -46,6 +49,7 @@ class Counts:
         self.queries += counts.get("queries", 0)
         self.random += counts.get("random", 0)
         self.skipped.update(counts.get("skipped", {}))
+        self.deviations += counts.get("deviations", 0)
         self.reasons += [counts["failure"]] if "failure" in counts else []
 
     def __bool__(self) -> bool:
@@ -64,6 +68,7 @@ class Counts:
             f"{self.queries} queries compared",
             f"{self.skipped.total()} skipped" + (f" ({said})" if said else ""),
             f"{self.random} random queries",
+            *([f"{self.deviations} failing as recorded"] if self.deviations else []),
             f"candidate {candidate}",
         ]
         return "conformance: " + ", ".join(parts)

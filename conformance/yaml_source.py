@@ -276,6 +276,10 @@ class _Composer:
             self._skip()
             return self._refuse_key(event, path, "a list, mapping or alias as a key")
         self._loader.get_event()
+        if event.anchor:
+            return self._refuse_key(
+                event, path, f"the anchor &{event.anchor} of a key", "only values have anchors"
+            )
         if not event.style and event.value == "<<":
             return self._refuse_key(event, path, "the merge key '<<'", "write the keys out")
         key = self._scalar(event, path)

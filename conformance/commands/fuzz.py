@@ -29,7 +29,8 @@ An input must be refused with an error that has a place, or be accepted and stan
 Anything else is a finding: its input is kept, and --replay runs it without the fuzzer. Inputs to start from
 are those that ship in conformance/fuzz/corpus. Ctrl-C ends the run and reports what was done so far.
 
-Exit codes: 0 nothing was found, 1 a finding, a hang or a killed worker, 2 usage, 4 nothing was run.
+Exit codes: 0 nothing was found, 1 a finding, a hang or a killed worker, 2 usage, 4 nothing was run,
+130 Ctrl-C.
 """
 _RUNS: Final = 100_000
 _FINDINGS: Final = Path("findings")
@@ -107,9 +108,10 @@ def _fuzz(target: Target, args: argparse.Namespace) -> int:
 
 def _tell(target: Target, report: Report) -> int:
     from conformance.console import make_console
+    from conformance.fuzz.session import BROKEN_OFF
 
     console = make_console()
-    if report.finding or (report.ended and report.ended != "broken off"):
+    if report.finding or (report.ended and report.ended != BROKEN_OFF):
         for line in report.output:
             console.print(line)
         console.print(f"found: {report.finding or report.ended}", style="red")
@@ -120,6 +122,8 @@ def _tell(target: Target, report: Report) -> int:
         f"{target.name}: {report.executed} executions, {report.accepted} accepted, "
         f"in {report.seconds:.0f} s ({rate:.0f} a second){', ' + report.ended if report.ended else ''}"
     )
-    if report.finding or (report.ended and report.ended != "broken off"):
+    if report.finding or (report.ended and report.ended != BROKEN_OFF):
         return exit_codes.FAILURES
+    if report.ended:
+        return exit_codes.BROKEN_OFF
     return exit_codes.OK if report.executed else exit_codes.NOTHING_RAN

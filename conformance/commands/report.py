@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import sys
+from contextlib import suppress
 from pathlib import Path
 from typing import TYPE_CHECKING, Final
 
@@ -11,9 +13,11 @@ from conformance.commands.trace import find_case, pose_number
 
 if TYPE_CHECKING:
     import argparse
-    from collections.abc import Collection
+    from collections.abc import Collection, Sequence
 
     from conformance.case import Case
+    from conformance.console import Progress
+    from conformance.report.html.entries import Entry, Judge
     from conformance.report.html.page import Report
     from conformance.source import Problem
 
@@ -73,8 +77,12 @@ def run(args: argparse.Namespace) -> int:
     write_text(args.output, page(report))
     counts = ", ".join(f"{report.counts[status]} {status.value}" for status in Status)
     make_console().print(f"{args.output}: {counts}")
+    if not report.whole:
+        sys.stderr.write("conformance report: broken off; the page shows what was asked so far\n")
     if report.failed:
         return exit_codes.FAILURES
+    if not report.whole:
+        return exit_codes.BROKEN_OFF
     return exit_codes.OK if report.counts[Status.PASSED] else exit_codes.NOTHING_RAN
 
 
@@ -84,17 +92,38 @@ def _report(args: argparse.Namespace) -> Report:
     from conformance.console import Progress
     from conformance.report.html.entries import Judge
     from conformance.report.html.page import Report
+    from conformance.report.html.view import views_of
 
+    library = _library(args)
     topics = _topics(args.trace_writes)
     cases, problems = _cases(args.cases, args.poses)
     candidate = candidate_from(args)
     judge = Judge(candidate, make_candidate("oracle"), topics, only_failed=args.all_failed)
-    entries = []
     with Progress() as progress:
+        entries = _entries(judge, cases, progress)
+        complaints = close(candidate)
+        progress.say("the scenes")
+        views = None if args.no_views else views_of(entries, candidate.name)
+    return Report(candidate.name, entries, problems, complaints, views, library, len(entries) == len(cases))
+
+
+def _entries(judge: Judge, cases: Sequence[Case], progress: Progress) -> list[Entry]:
+    """Ask every case; Ctrl-C ends the asking, not the report."""
+    entries: list[Entry] = []
+    with suppress(KeyboardInterrupt):
         for number, case in enumerate(cases, start=1):
             progress.say(f"case {number} of {len(cases)}: {case.id}")
             entries.append(judge.entry(case))
-    return Report(candidate.name, entries, problems, close(candidate))
+    return entries
+
+
+def _library(args: argparse.Namespace) -> str:
+    from conformance.report.html.library import MissingVizError, plotly_source
+
+    try:
+        return "" if args.no_views else plotly_source()
+    except MissingVizError as error:
+        raise UsageError(f"{error}; or --no-views") from error
 
 
 def _topics(text: str) -> Collection[str]:

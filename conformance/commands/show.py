@@ -2,19 +2,25 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+from pathlib import Path
 from typing import TYPE_CHECKING, Final
 
 from conformance import exit_codes
-from conformance.commands.options import UsageError
+from conformance.commands.options import UsageError, add_candidate_option, candidate_from
 from conformance.commands.trace import find_case, pose_number, query_of
 
 if TYPE_CHECKING:
     import argparse
 
-HELP: Final = "show the work that a case takes: with shortcuts, without them, and by brute force"
+    from conformance.case import Case
+    from conformance.query import Query
+
+HELP: Final = "show the work that a case takes, or draw its scene as a picture"
 EXAMPLES: Final = (
     "conformance show --work walk-cellar-descent",
     "conformance show --work my-cases/ramp.yaml::my-first-ramp --pose 3",
+    "conformance show walk-cellar-descent -o cellar.png --candidate bug:cell-origin",
 )
 
 
@@ -28,23 +34,41 @@ def configure(parser: argparse.ArgumentParser) -> None:
         "beside it the same without shortcuts, and what linear scans instead of trees would test",
     )
     parser.add_argument(
+        "-o",
+        "--output",
+        type=Path,
+        metavar="FILE",
+        help="draw the scene as a PNG file: cells, both movers, their contact planes, the polygon in "
+        "question; of a walk the first tick that differs (needs the extra `viz`)",
+    )
+    parser.add_argument(
         "--pose",
         type=pose_number,
         default=0,
         metavar="N",
         help="the case in its Nth random pose (default: 0, as written)",
     )
+    add_candidate_option(parser, default="oracle")
 
 
 def run(args: argparse.Namespace) -> int:
     """Print what was asked for, and return the exit code: 1 if the case fails to run."""
-    if not args.work:
-        raise UsageError("nothing to show was asked for; there is: --work")
+    if not args.work and args.output is None:
+        raise UsageError("nothing to show was asked for; there are: --work, --output FILE")
+    case = find_case(args.case)
+    query = query_of(case, args.pose)
+    if args.output is not None:
+        code = _draw(case, query, args)
+        if code != exit_codes.OK or not args.work:
+            return code
+    return _show_work(query)
+
+
+def _show_work(query: Query) -> int:
     from conformance.console import make_console
     from conformance.report.work import work_table
     from conformance.work import NoWorkError, measure_work
 
-    query = query_of(find_case(args.case), args.pose)
     console = make_console()
     console.print(f"{query.label} ({query.op})")
     try:
@@ -53,3 +77,34 @@ def run(args: argparse.Namespace) -> int:
         console.print(str(error))
         return exit_codes.FAILURES if error.failed else exit_codes.NOTHING_RAN
     return exit_codes.OK
+
+
+def _draw(case: Case, query: Query, args: argparse.Namespace) -> int:
+    """Write the picture; an operation without a scene has none."""
+    from conformance.candidates.base import close
+    from conformance.candidates.registry import make_candidate
+    from conformance.console import make_console
+    from conformance.files import write_bytes
+    from conformance.report.html.entries import Judge
+    from conformance.report.html.library import MissingVizError
+    from conformance.report.html.picture import picture
+    from conformance.report.html.view import view_of
+
+    candidate = candidate_from(args)
+    pinned = case.expect if args.pose == 0 else ()
+    asked = replace(case, queries=(query,), expect=pinned)
+    entry = Judge(candidate, make_candidate("oracle"), ()).entry(asked)
+    complaints = close(candidate)
+    view = view_of(entry.details, candidate.name) if entry.details else None
+    if view is None:
+        make_console().print(
+            f"{query.label}: {query.op} computes with numbers only; there is nothing to draw"
+        )
+        return exit_codes.NOTHING_RAN
+    try:
+        write_bytes(args.output, picture(view, query.label))
+    except MissingVizError as error:
+        raise UsageError(str(error)) from error
+    for line in (f"{args.output}: {query.label}, {entry.status.value}", *complaints):
+        make_console().print(line)
+    return exit_codes.FAILURES if complaints else exit_codes.OK

@@ -63,7 +63,7 @@ def run(args: argparse.Namespace) -> int:
     console.print(f"{query.label} ({query.op}, {candidate.name})")
     for line in (*trace_lines(written, with_foot=args.foot), "summary:", *summary_lines(written)):
         console.print(line)
-    text, code = _ending(outcome)
+    text, code = ending(outcome)
     console.print(text)
     return code
 
@@ -126,7 +126,8 @@ def _hint(name: str, known: Collection[str]) -> str:
     return f" Did you mean {nearest[0]!r}?" if nearest else ""
 
 
-def _ending(outcome: Outcome) -> tuple[str, int]:
+def ending(outcome: Outcome) -> tuple[str, int]:
+    """Return the line that tells how a query ended, and the exit code."""
     from conformance.query import Errored, Skipped
 
     if isinstance(outcome, Errored):

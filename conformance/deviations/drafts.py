@@ -63,7 +63,7 @@ def entries_for(case_id: str, failures: Sequence[Failure]) -> Iterator[dict[str,
 
 
 def _bounds(found: Sequence[Difference]) -> Iterable[dict[str, Any]]:
-    """Return what holds of a field in every query: its one value, or a bound on its distance from retail's."""
+    """Return what holds of a field in every query: its one value, or a bound on its distance."""
     values = list(dict.fromkeys(map(observed_text, found)))
     distances = [distance for d in found if (distance := distance_of(d)) is not None]
     if len(values) == 1 or len(distances) < len(found) or max(distances) == 0:

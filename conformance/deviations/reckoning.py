@@ -76,9 +76,7 @@ def _is_recorded(failure: Failure, recorded: Sequence[Deviation], candidate: str
         return False
     if not failure.found:
         return any(deviation.covers_error(failure.error) for deviation in recorded)
-    return all(
-        any(deviation.covers(difference) for deviation in recorded) for difference in failure.found
-    )
+    return all(any(deviation.covers(difference) for deviation in recorded) for difference in failure.found)
 
 
 def _shows(deviation: Deviation, failures: Sequence[Failure], candidate: str) -> bool:

@@ -23,6 +23,8 @@ LONGEST_RUN: Final = 60
 """Seconds after which one execution is a hang."""
 MOST_MEMORY: Final = 3000
 """MB that the worker may take."""
+BROKEN_OFF: Final = "broken off"
+"""How a run ends that Ctrl-C has ended."""
 _SHOWN_LINES: Final = 40
 _PULSE: Final = re.compile(r"^#(\d+)\s.*exec/s: (\d+)")
 _DONE: Final = re.compile(r"^stat::number_of_executed_units: (\d+)")
@@ -116,7 +118,7 @@ def fuzz(
             _follow(worker.stderr or (), report, say)
         except KeyboardInterrupt:
             worker.terminate()
-            report.ended = "broken off"
+            report.ended = BROKEN_OFF
     report.seconds = time.monotonic() - started
     if not report.ended and worker.returncode:
         report.ended = _ending(worker.returncode)

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 import pytest
 
-from conformance import cli
+from conformance import cli, exit_codes
 from conformance.bench import benchmark
 from conformance.bench import engine_jobs as ops
 from conformance.bench.contests import Contest
@@ -97,7 +97,7 @@ def test_what_is_broken_off_keeps_its_results(
     target = tmp_path / "new" / "bench.json"
     code = run_with(monkeypatch, measure, "--quick", "--seed", 9, "--json", target)
     record = json.loads(target.read_text(encoding="utf-8"))
-    assert code == 0
+    assert code == exit_codes.BROKEN_OFF
     assert record["seed"] == 9
     assert len(record["ratios"]) == 1
     assert "everything after that: the run was broken off" in record["omissions"]

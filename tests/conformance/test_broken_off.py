@@ -8,6 +8,7 @@ import os
 import signal
 import subprocess
 import sys
+from importlib.metadata import entry_points
 from pathlib import Path
 
 import pytest
@@ -141,7 +142,9 @@ def test_a_device_is_written_to_directly() -> None:
         write_text(Path("/dev/full"), "text\n")
 
 
-PLUGGED = [sys.executable, "-m", "pytest", "-p", "conformance.plugin", "-p", "no:cacheprovider", "-q"]
+IS_INSTALLED = any(point.value == "conformance.plugin" for point in entry_points(group="pytest11"))
+PLUG = () if IS_INSTALLED else ("-p", "conformance.plugin")
+PLUGGED = [sys.executable, "-m", "pytest", *PLUG, "-p", "no:cacheprovider", "-q"]
 CASES = """\
 import os
 import signal

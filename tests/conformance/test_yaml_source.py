@@ -81,6 +81,7 @@ def test_places_of_keys_and_values() -> None:
         (b"a: *y\n", 1, 4, "the alias *y"),
         (b"a: &x 1\nb: &x 2\n", 2, 4, "the anchor &x a second time"),
         (b"a: &x [&x 1]\n", 1, 8, "the anchor &x a second time"),
+        (b"&x a: 1\n", 1, 1, "the anchor &x of a key"),
         (b"---\na: 1\n---\nb: 2\n", 3, 1, "a second document"),
     ],
 )

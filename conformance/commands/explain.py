@@ -1,0 +1,100 @@
+"""`conformance explain`: what retail does in a case, step by step of the specification."""
+
+from __future__ import annotations
+
+import argparse
+import textwrap
+from typing import TYPE_CHECKING, Final
+
+from conformance.commands.options import UsageError
+from conformance.commands.trace import ending, find_case, pose_number, query_of
+
+if TYPE_CHECKING:
+    from collections.abc import Iterator
+
+    from conformance.case import Case
+    from conformance.life.explanation import Explanation
+    from conformance.query import Query
+
+HELP: Final = "tell what retail does in a case: every step of the specification, what it decides and writes"
+EXAMPLES: Final = (
+    "conformance explain origin-step-down-touching",
+    "conformance explain origin-step-down-touching --pose 3 --depth 2",
+    "conformance explain walk-cellar-descent --tick 17",
+    "conformance explain my-cases/ramp.yaml::my-first-ramp",
+)
+_WIDTH: Final = 100
+
+
+def configure(parser: argparse.ArgumentParser) -> None:
+    """Add the command's arguments."""
+    parser.add_argument("case", metavar="CASE-ID|FILE::ID", help="a built-in case, or a case of a file")
+    parser.add_argument(
+        "--pose",
+        type=pose_number,
+        default=0,
+        metavar="N",
+        help="the case in its Nth random pose (default: 0, as written)",
+    )
+    parser.add_argument(
+        "--tick", type=_tick, metavar="N", help="the tick of a walk, from 0; a walk is told tick by tick"
+    )
+    parser.add_argument("--depth", type=_depth, metavar="N", help="levels of calls to show (default: all)")
+
+
+def run(args: argparse.Namespace) -> int:
+    """Print the explanation and return the exit code: 1 if the case fails to run."""
+    from conformance.console import Progress, make_console
+    from conformance.life.explanation import NoTickError, explain
+
+    case = find_case(args.case)
+    query = query_of(case, args.pose)
+    try:
+        with Progress() as progress:
+            explanation = explain(query, args.tick, progress.say)
+    except NoTickError as error:
+        raise UsageError(str(error)) from error
+    console = make_console()
+    for line in (*_introduction(case, query), *_body(case, explanation, args.depth)):
+        console.print(line)
+    text, code = ending(explanation.outcome)
+    console.print(text)
+    return code
+
+
+def _tick(text: str) -> int:
+    number = int(text)
+    if number < 0:
+        raise argparse.ArgumentTypeError(f"{number} is not the number of a tick")
+    return number
+
+
+def _depth(text: str) -> int:
+    number = int(text)
+    if number < 1:
+        raise argparse.ArgumentTypeError(f"found {number}, expected at least 1 level")
+    return number
+
+
+def _introduction(case: Case, query: Query) -> Iterator[str]:
+    from conformance.report.scene import scene_line
+
+    yield f"{query.label}: {case.title}"
+    yield ""
+    yield from textwrap.wrap(case.why, _WIDTH)
+    yield ""
+    yield f"scene: {scene_line(query)}"
+
+
+def _body(case: Case, explanation: Explanation, depth: int | None) -> Iterator[str]:
+    from conformance.life.explanation import Citations
+    from conformance.report.steps import step_lines
+    from conformance.report.traces import trace_lines
+
+    cited = Citations(case.retail)
+    yield "steps (* what the case cites):"
+    yield from list(step_lines(explanation.items, cited, depth)) or ["  none"]
+    for function in cited.missing(explanation.functions):
+        yield f"  cited, but not called under this name: {function}"
+    yield "writes:"
+    yield from [f"  {line}" for line in trace_lines(explanation.entries, with_foot=False)] or ["  no writes"]

@@ -1,0 +1,45 @@
+"""The stage of numerical stress: families of sweeps, held against retail and an error budget."""
+
+from __future__ import annotations
+
+import os
+import time
+from typing import TYPE_CHECKING
+
+from conformance.gate.outcome import Check, Stage, Status
+from conformance.stress.budgets import broken_bounds
+from conformance.stress.findings import CANDIDATE, Findings
+from conformance.stress.models import Spec
+from conformance.stress.runner import Plan, run_plan
+from conformance.stress.settings import quick
+
+if TYPE_CHECKING:
+    from collections.abc import Callable
+
+    from conformance.gate.parties import Parties
+    from conformance.stress.budgets import Budget
+
+
+def check_stress(
+    parties: Parties, budget: Budget, record: Callable[[Check], None], say: Callable[[str], None]
+) -> None:
+    """Run the families and hold what was found against the budget.
+
+    Of a bound that is about no severity of a quick run, nothing is said.
+    """
+    gate = parties.gate
+    begin = time.perf_counter()
+    findings = Findings()
+    plan = Plan(quick(), gate.stress, Spec(parties.spec, parties.read_timeout), os.cpu_count() or 1)
+    run_plan(plan, findings, lambda text: say(f"stress: {text}"))
+    seconds = time.perf_counter() - begin
+    broken = [f"budget: {text}" for text in broken_bounds(budget, findings, whole=False)]
+    for family in gate.stress:
+        asked = [r for r in findings.readings if (r.model, r.family) == (CANDIDATE, family)]
+        wrong = [text for text in broken if text.startswith((f"budget: {family}:", f"budget: {family},"))]
+        status = Status.FAILED if wrong else Status.PASSED if asked else Status.SKIPPED
+        spent = seconds * findings.costs.get(family, 0.0) / (sum(findings.costs.values()) or 1.0)
+        message = "; ".join(wrong) or ("" if asked else "; ".join(findings.notes) or "no reading")
+        record(Check(Stage.STRESS, family, status, len(asked), spent, message))
+    for text in findings.failures:
+        record(Check(Stage.STRESS, "run", Status.FAILED, message=text))

@@ -1,0 +1,187 @@
+"""The layout of case files: keys in the order of the documentation, even spacing, comments kept."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any, Final, NamedTuple
+
+import yaml
+
+from conformance.schema.case import CaseModel
+from conformance.yaml_source import YamlError, parse, split_lines
+
+if TYPE_CHECKING:
+    from collections.abc import Iterator
+
+    from conformance.source import DocPath
+    from conformance.yaml_source import Document
+
+ORDER: Final = tuple(CaseModel.model_fields)
+"""The keys of a case, as the documentation lists them."""
+
+_CASES: Final = "cases"
+_COMMENT: Final = "#"
+_DASH: Final = "-"
+
+
+class LayoutError(ValueError):
+    """A file cannot be laid out anew without changing what it says."""
+
+    def __init__(self, name: str) -> None:
+        super().__init__(
+            f"{name}: laid out anew it would say something else (does an anchor come behind its alias,"
+            " or is the case written with braces?)"
+        )
+
+
+class _Block(NamedTuple):
+    """The lines of a key, from the comments above it to its last one."""
+
+    key: str
+    lines: list[str]
+
+
+def lay_out(raw: bytes, name: str) -> str:
+    """Return the text of a case file in the layout of this project.
+
+    The keys of each case are in the order of `ORDER`, each with the comments above it; comments above the
+    first one speak of the whole case or file, and stay where they are. There is an empty line between cases,
+    none at the beginning and never more than one. Lines end with a line feed and have no blanks at their
+    end. What is in the values of keys, texts of several lines above all, stays as it is.
+
+    Parameters
+    ----------
+    raw : bytes
+        The file.
+    name : str
+        What messages call it.
+
+    Raises
+    ------
+    YamlError
+        It cannot be read.
+    LayoutError
+        Then it would say something else, because an anchor comes behind an alias of it, for instance.
+    """
+    document = parse(raw, name)
+    ordered = "\n".join(_in_order(document))
+    text = "".join(f"{line}\n" for line in _spaced(ordered, _same(document, ordered, name)))
+    _same(document, text, name)
+    return text
+
+
+def _same(document: Document, text: str, name: str) -> Document:
+    """Read a text that has to say what a document says."""
+    try:
+        again = parse(text.encode("utf-8"), name)
+    except YamlError as error:
+        raise LayoutError(name) from error
+    if again.data != document.data or len(again.refusals) != len(document.refusals):
+        raise LayoutError(name)
+    return again
+
+
+def _in_order(document: Document) -> list[str]:
+    """Return the lines of a document with the keys of each case in order."""
+    lines = list(document.lines)
+    for below, end in _cases(document):
+        keys = _keys(document, below)
+        if len({line for line, _ in keys}) == len(keys):
+            first = keys[0][0] - 1
+            lines[first:end] = _sorted(lines[:end], keys)
+    return lines
+
+
+def _cases(document: Document) -> Iterator[tuple[DocPath, int]]:
+    """Yield the way to each case, and the number of its last line."""
+    data = document.data
+    if not isinstance(data, dict):
+        return
+    last = len(document.lines)
+    if not isinstance(data.get(_CASES), list):
+        yield (), last
+        return
+    items = [(_CASES, index) for index, item in enumerate(data[_CASES]) if isinstance(item, dict) and item]
+    ends = [document.first_line(path) - 1 for path in items[1:]]
+    yield from zip(items, [*ends, last], strict=True)
+
+
+def _keys(document: Document, below: DocPath) -> list[tuple[int, str]]:
+    """List the keys of a case with their lines, in the order of the file."""
+    depth = len(below)
+    return sorted(
+        (place[0], str(path[depth]))
+        for path, place in document.keys.items()
+        if len(path) == depth + 1 and path[:depth] == below
+    )
+
+
+def _sorted(lines: list[str], keys: list[tuple[int, str]]) -> list[str]:
+    """Sort the lines of a case, which are the last of `lines`, by its keys."""
+    start = keys[0][0] - 1
+    head = lines[start]
+    is_item = head.lstrip().startswith(f"{_DASH} ")
+    dash = head.index(_DASH) if is_item else 0
+    own = [*lines[:start], f"{head[:dash]} {head[dash + 1 :]}" if is_item else head, *lines[start + 1 :]]
+    end = len(own)
+    while end > keys[-1][0] and _is_aside(own[end - 1]):
+        end -= 1
+    starts = [start, *(_lead(own, line) for line, _ in keys[1:]), end]
+    blocks = [
+        _Block(key, own[first:last])
+        for (_, key), first, last in zip(keys, starts[:-1], starts[1:], strict=True)
+    ]
+    ordered = [line for block in sorted(blocks, key=_rank) for line in block.lines]
+    if is_item:
+        first = next(index for index, line in enumerate(ordered) if not _is_aside(line))
+        ordered[first] = f"{ordered[first][:dash]}{_DASH}{ordered[first][dash + 1 :]}"
+    return [*ordered, *own[end:]]
+
+
+def _rank(block: _Block) -> int:
+    return ORDER.index(block.key) if block.key in ORDER else len(ORDER)
+
+
+def _lead(lines: list[str], number: int) -> int:
+    """Return the index of the first of the comment lines right above a line."""
+    index = number - 1
+    while index and lines[index - 1].lstrip().startswith(_COMMENT):
+        index -= 1
+    return index
+
+
+def _is_aside(line: str) -> bool:
+    return not line.strip() or line.lstrip().startswith(_COMMENT)
+
+
+def _spaced(text: str, document: Document) -> list[str]:
+    """Return the lines of a document with even spacing; texts of several lines are kept as they are."""
+    lines = split_lines(text)
+    kept = _inside_texts(text)
+    items = [document.first_line(path) for path, _ in _cases(document)]
+    heads = {_lead(lines, number) for number in items[1:]}
+    spaced: list[str] = []
+    for index, line in enumerate(lines):
+        after_empty = not spaced or not spaced[-1].strip()
+        if index in kept:
+            spaced.append(line)
+            continue
+        if index in heads and not after_empty:
+            spaced.append("")
+        if line.strip() or not after_empty:
+            spaced.append(line.rstrip())
+    last = max(kept, default=-1) == len(lines) - 1
+    while spaced and not spaced[-1] and not last:
+        spaced.pop()
+    return spaced
+
+
+def _inside_texts(text: str) -> set[int]:
+    """Return the indices of the lines that texts of several lines have behind their first one."""
+    inside: set[int] = set()
+    events: Iterator[Any] = iter(yaml.parse(text, Loader=yaml.SafeLoader))
+    for event in events:
+        if isinstance(event, yaml.ScalarEvent):
+            first: Any = event.start_mark
+            last: Any = event.end_mark
+            inside |= set(range(first.line + 1, last.line + (last.column > 0)))
+    return inside

@@ -1,0 +1,467 @@
+"""The gate: how it ends, what it writes, what it skips."""
+
+from __future__ import annotations
+
+import datetime as dt
+import functools
+import hashlib
+import json
+import re
+import shlex
+from dataclasses import replace
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+from xml.etree import ElementTree as ET
+
+import pytest
+import yaml
+from deviation_files import FAILING, ORIGIN, deviation_file
+from faux import faux_command
+from hypothesis import given
+from hypothesis import strategies as st
+
+from conformance import exit_codes
+from conformance.candidates.bug_candidate import BugCandidate
+from conformance.candidates.known_bugs import list_bugs
+from conformance.candidates.oracle_candidate import OracleCandidate
+from conformance.candidates.registry import make_candidate
+from conformance.cli import _make_parser, main
+from conformance.compare import Difference
+from conformance.deviations.files import Deviations, read_deviations
+from conformance.deviations.reckoning import reckon
+from conformance.gate import config, digests, pinned, speed
+from conformance.gate.evidence import EvidenceError, badge_record, passed_before
+from conformance.gate.junit import junit_xml
+from conformance.gate.outcome import VERDICTS, Check, GateRun, Stage, Status
+from conformance.gate.pinned import chosen, judged
+from conformance.gate.speed import Baseline, BaselineError, measure_ratio, read_baseline
+from conformance.loader import Vary, load_file, load_paths
+from conformance.query import Query, Result, Skipped
+from conformance.shapes import Kind
+from conformance.verdict import Failure, Verdict, judge
+
+if TYPE_CHECKING:
+    from collections.abc import Sequence
+
+ROOT = Path(__file__).parents[2]
+DOCS = ROOT / "docs"
+BUGS = {bug.id: bug for bug in list_bugs() if bug.case}
+assert BUGS, "no known bugs with a case"
+TODAY = dt.date(2030, 1, 1)
+TWO_CASES = "cases: [{}]\nposes: {{count: 0}}\nwalks: {{count: 0}}\n"
+
+
+@pytest.fixture
+def gate(tmp_path: Path) -> Gate:
+    """Return the command, on the two cases about a cell's origin."""
+    return Gate(tmp_path)
+
+
+class Gate:
+    """The command with a configuration of two cases, and the evidence that it writes."""
+
+    def __init__(self, folder: Path) -> None:
+        self.folder = folder
+        self.config = folder / "gate.yaml"
+        self.config.write_text(TWO_CASES.format(json.dumps(str(ORIGIN))), encoding="utf-8")
+
+    def __call__(self, *words: object, candidate: str = "oracle", stage: str = "cases") -> int:
+        """Run it."""
+        options = ("--config", self.config, "-o", self.evidence, "--candidate", candidate, "--stage", stage)
+        return main(["gate", *map(str, options), *map(str, words)])
+
+    @property
+    def evidence(self) -> Path:
+        """Where it writes."""
+        return self.folder / "evidence"
+
+    def summary(self) -> dict[str, Any]:
+        """Return what it has written."""
+        found: dict[str, Any] = json.loads((self.evidence / "summary.json").read_text(encoding="utf-8"))
+        return found
+
+
+def run_of(*statuses: Status, asked: Sequence[Stage] = (Stage.CASES,), whole: bool = True) -> GateRun:
+    """Return a run whose checks ended so."""
+    checks = [Check(Stage.CASES, f"case-{n}", status, 1) for n, status in enumerate(statuses)]
+    return GateRun(tuple(asked), checks, whole=whole)
+
+
+@pytest.mark.parametrize(
+    ("statuses", "code"),
+    [
+        ([Status.PASSED, Status.SKIPPED, Status.RECORDED, Status.UNCHANGED], exit_codes.OK),
+        ([Status.UNCHANGED], exit_codes.OK),
+        ([Status.PASSED, Status.BROKEN, Status.FAILED], exit_codes.FAILURES),
+        ([Status.PASSED, Status.BROKEN], exit_codes.BROKEN),
+        ([Status.SKIPPED], exit_codes.NOTHING_RAN),
+        ([], exit_codes.NOTHING_RAN),
+    ],
+)
+def test_exit_codes(statuses: list[Status], code: int) -> None:
+    """A wrong answer counts more than a missing one, and that more than nothing."""
+    assert run_of(*statuses).exit_code == code
+
+
+def test_each_stage_must_show_something() -> None:
+    """One that has shown nothing is named, whatever the others show."""
+    run = run_of(Status.PASSED, asked=(Stage.CASES, Stage.WALKS))
+    assert (run.exit_code, run.empty_stages) == (exit_codes.NOTHING_RAN, [Stage.WALKS])
+    assert GateRun((), whole=True).exit_code == exit_codes.NOTHING_RAN
+
+
+def test_a_run_that_was_broken_off_is_not_green() -> None:
+    """But red if it was red by then."""
+    assert run_of(Status.PASSED, whole=False).exit_code == exit_codes.BROKEN_OFF
+    assert run_of(Status.FAILED, whole=False).exit_code == exit_codes.FAILURES
+
+
+def test_a_clean_candidate_passes(gate: Gate, capsys: pytest.CaptureFixture[str]) -> None:
+    """0, and the folder holds what was seen, each file as its sum says."""
+    assert gate() == exit_codes.OK
+    out = capsys.readouterr().out.splitlines()
+    assert out == ["cases: 2 passed; 2 compared", f"gate: pass; evidence: {gate.evidence}"]
+    sums = (gate.evidence / "SHA256SUMS").read_text(encoding="utf-8").splitlines()
+    named = dict(reversed(line.split("  ")) for line in sums)
+    assert list(named) == [
+        "summary.json",
+        "junit.xml",
+        "environment.json",
+        "seeds.json",
+        "badge.json",
+        "report.html",
+    ]
+    for name, digest in named.items():
+        assert hashlib.sha256((gate.evidence / name).read_bytes()).hexdigest() == digest
+    summary = gate.summary()
+    assert (summary["verdict"], summary["exit_code"], summary["candidate"]) == ("pass", 0, "oracle")
+    assert [check["status"] for check in summary["checks"]] == ["passed", "passed"]
+    badge = json.loads((gate.evidence / "badge.json").read_text(encoding="utf-8"))
+    assert (badge["message"], badge["color"]) == ("2 cases", "brightgreen")
+
+
+def test_a_bug_does_not(gate: Gate, capsys: pytest.CaptureFixture[str]) -> None:
+    """1, with the first difference, in the report as well."""
+    assert gate(candidate="bug:cell-origin") == exit_codes.FAILURES
+    assert f"  {FAILING}: {FAILING}: contact_plane.d: retail -94.0" in capsys.readouterr().out
+    assert FAILING in (gate.evidence / "report.html").read_text(encoding="utf-8")
+    assert gate.summary()["verdict"] == "disagreement"
+
+
+def test_a_recorded_bug_passes(gate: Gate) -> None:
+    """And is counted; a record that does not show is a disagreement."""
+    path = deviation_file(gate.folder)
+    assert gate("--deviations", path, candidate="bug:cell-origin") == exit_codes.OK
+    assert gate.summary()["stages"]["cases"]["recorded"] == 1
+    assert gate("--deviations", path) == exit_codes.FAILURES
+
+
+def test_a_deviation_about_no_case_is_red(gate: Gate) -> None:
+    """But not one about a case that is filtered away."""
+    path = deviation_file(gate.folder, case="origin-step-up-touching")
+    assert gate("--deviations", path) == exit_codes.FAILURES
+    path = deviation_file(gate.folder)
+    assert gate("--deviations", path, "--case", "*-short") == exit_codes.OK
+
+
+def test_ctrl_c_leaves_evidence(gate: Gate, monkeypatch: pytest.MonkeyPatch) -> None:
+    """Of what was seen until then, which is not all."""
+
+    def breaking(*_asked: object) -> None:
+        raise KeyboardInterrupt
+
+    monkeypatch.setattr(pinned, "case_digest", breaking)
+    assert gate() == exit_codes.BROKEN_OFF
+    summary = gate.summary()
+    assert (summary["verdict"], summary["whole"], summary["checks"]) == ("broken off", False, [])
+
+
+def test_nothing_of_a_stage_leaves_it_out(tmp_path: Path) -> None:
+    """So that it need not show anything."""
+    path = tmp_path / "gate.yaml"
+    path.write_text("poses: {count: 0}\nwalks: {count: 0}\nstress: {families: []}\n", encoding="utf-8")
+    assert config.read_config(path, config.FULL).stages == (Stage.CASES,)
+
+
+def test_all_filtered_away(gate: Gate, capsys: pytest.CaptureFixture[str]) -> None:
+    """4: nothing was shown to be right."""
+    assert gate("--case", "nothing-*") == exit_codes.NOTHING_RAN
+    assert "cases: nothing was shown" in capsys.readouterr().out
+
+
+def test_a_broken_candidate(gate: Gate) -> None:
+    """3: it ends before it has introduced itself."""
+    assert gate(candidate=f"cmd:{faux_command('refuses')}") == exit_codes.BROKEN
+    assert {check["status"] for check in gate.summary()["checks"]} == {"broken"}
+
+
+def test_a_candidate_that_hangs_is_given_up(gate: Gate, monkeypatch: pytest.MonkeyPatch) -> None:
+    """3, after the first case that has taken all patience; the evidence says so."""
+    monkeypatch.setattr(pinned, "PATIENCE", 0.0)
+    assert gate(candidate=f"cmd:{faux_command('refuses')}") == exit_codes.BROKEN
+    summary = gate.summary()
+    assert ([check["name"] for check in summary["checks"]], summary["whole"]) == ([FAILING], False)
+    assert summary["notes"][0].startswith(f"given up at {FAILING}, after ")
+
+
+def test_what_is_unchanged_is_skipped(gate: Gate) -> None:
+    """Twice in a row, too; not if another candidate is asked, and never by a full gate."""
+    assert gate() == exit_codes.OK
+    for _ in range(2):
+        assert gate("--skip-unchanged", gate.evidence) == exit_codes.OK
+        assert gate.summary()["stages"]["cases"]["unchanged"] == 2
+    assert gate("--skip-unchanged", gate.evidence, candidate="bug:cell-origin") == exit_codes.FAILURES
+    assert gate.summary()["stages"]["cases"]["unchanged"] == 0
+    assert gate("--full", "--skip-unchanged", gate.evidence) == exit_codes.USAGE
+
+
+def test_random_queries(gate: Gate) -> None:
+    """Families are asked from the seed that is told, and the first wrong query is kept and summed."""
+    gate.config.write_text("poses: {count: 6, seed: 3}\n", encoding="utf-8")
+    assert gate(candidate="bug:float32-registers", stage="poses") == exit_codes.FAILURES
+    seeds = json.loads((gate.evidence / "seeds.json").read_text(encoding="utf-8"))
+    assert seeds["poses"] == {"count": 6, "seed": 3}
+    wrong = next(check for check in gate.summary()["checks"] if check["status"] == "failed")
+    (case,) = load_file(gate.evidence / "found" / wrong["message"].rpartition("kept: ")[2]).cases
+    verdict = judge(case, make_candidate("bug:float32-registers"), OracleCandidate())
+    assert verdict.failures
+    assert f"found/{case.id}.yaml" in (gate.evidence / "SHA256SUMS").read_text(encoding="utf-8")
+
+
+@pytest.mark.parametrize("bug", [bug for bug in BUGS.values() if not bug.survives], ids=lambda bug: bug.id)
+def test_each_known_bug_fails_its_case(bug: Any) -> None:
+    """Whatever else there is, the gate ends with 1: its named case is answered wrongly."""
+    (case,) = chosen(built_in(), [bug.case])
+    verdict = judge(case, BugCandidate(bug), OracleCandidate())
+    reckoning = reckon(Deviations("x"), case.id, verdict, candidate=f"bug:{bug.id}", today=TODAY)
+    assert judged(verdict, reckoning)[0] is Status.FAILED
+
+
+@functools.cache
+def built_in() -> tuple[Any, ...]:
+    """Return the cases of the package."""
+    return load_paths(vary=Vary(poses=0)).cases
+
+
+def test_an_error_alone_is_broken() -> None:
+    """Beside a wrong answer it is a disagreement."""
+    query = Query("plane_set_height", {}, label="x")
+    error = Failure(query, "engine", error="ended\n  log")
+    wrong = Failure(query, "engine", found=(Difference("r", "r", Kind.BITS, 1, 2),))
+
+    def status(*failures: Failure) -> Status:
+        verdict = Verdict(1, failures=list(failures))
+        return judged(verdict, reckon(Deviations("x"), "x", verdict, candidate="engine", today=TODAY))[0]
+
+    assert status(error) is Status.BROKEN
+    assert status(error, wrong) is Status.FAILED
+    assert status() is Status.PASSED
+
+
+@pytest.mark.parametrize(
+    ("text", "told"),
+    [
+        ("cases: []", "gate.yaml:1:8: cases"),
+        ("posses: {count: 1}", "did you mean 'poses'?"),
+        ("poses: {count: -1}", "gate.yaml:1:16: poses.count"),
+        ("stress: {families: [drifts]}", "did you mean 'drift'?"),
+        ("performance: {baseline: b.json, at_least: 0}", "performance.at_least"),
+        ("performance: {baseline: nowhere.json}", "cannot read"),
+        ("deviations: nowhere.yaml", "cannot read"),
+        ("cases: [nowhere]", "does not exist"),
+    ],
+)
+def test_mistakes_in_a_configuration(
+    text: str, told: str, gate: Gate, capsys: pytest.CaptureFixture[str]
+) -> None:
+    """2, with the place, before anything is asked."""
+    few = "" if "cases" in text else f"cases: [{json.dumps(str(ORIGIN))}]\n"
+    gate.config.write_text(f"{text}\n{few}", encoding="utf-8")
+    stage = "performance" if "nowhere.json" in text else "cases"
+    assert gate(stage=stage) == exit_codes.USAGE
+    assert told in capsys.readouterr().err
+    assert not gate.evidence.exists()
+
+
+def test_a_budget_is_read_before_anything_is_asked(gate: Gate, capsys: pytest.CaptureFixture[str]) -> None:
+    """2: not after minutes."""
+    pytest.importorskip("flint", reason="the extra `exact` is not installed")
+    for name, told in (("nowhere.yaml", "cannot read"), (gate.config.name, "not a budget")):
+        few = f"cases: [{json.dumps(str(ORIGIN))}]\n"
+        gate.config.write_text(f"{few}stress: {{families: [drift], budget: {name}}}\n", encoding="utf-8")
+        assert gate(stage="stress") == exit_codes.USAGE
+        assert told in capsys.readouterr().err
+    assert not gate.evidence.exists()
+
+
+def test_a_configuration_changes_a_preset(tmp_path: Path) -> None:
+    """What it does not say stays; paths are relative to its folder, the name of an engine is none."""
+    path = tmp_path / "gate.yaml"
+    path.write_text("poses: {count: 7}\ncases: [mine]\ndeviations: engine\n", encoding="utf-8")
+    changed = config.read_config(path, config.QUICK)
+    assert changed == replace(
+        config.QUICK, poses=config.Draws(count=7), cases=(tmp_path / "mine",), deviations="engine"
+    )
+
+
+def test_stress_families_are_those_there_are() -> None:
+    """They are named twice, because those of the suite come with an extra."""
+    pytest.importorskip("flint", reason="the extra `exact` is not installed")
+    from conformance.stress.families import FAMILIES
+
+    assert tuple(FAMILIES) == config.STRESS_FAMILIES
+
+
+def test_junit_counts_and_survives_any_log() -> None:
+    """Failures, errors and skips by their names; what XML cannot hold is replaced."""
+    run = run_of(Status.PASSED, Status.FAILED, Status.BROKEN, Status.RECORDED)
+    run.checks[1] = replace(run.checks[1], message="at <cell> \x1b[31m\nmore")
+    (suite,) = ET.fromstring(junit_xml(run))  # noqa: S314 - our own
+    assert {name: suite.get(name) for name in ("tests", "failures", "errors", "skipped")} == {
+        "tests": "4",
+        "failures": "1",
+        "errors": "1",
+        "skipped": "1",
+    }
+    failure = suite.find("testcase[@name='case-1']/failure")
+    assert failure is not None
+    assert failure.get("message") == "at <cell> \ufffd[31m"
+
+
+@given(st.text())
+def test_junit_is_xml(text: str) -> None:
+    """Whatever a message says."""
+    run = GateRun((Stage.CASES,), [Check(Stage.CASES, "x", Status.FAILED, message=text)])
+    ET.fromstring(junit_xml(run))  # noqa: S314 - our own
+
+
+def test_the_badge_names_deviations() -> None:
+    """So that a green one does not say more than it may."""
+    badge = badge_record(run_of(Status.PASSED, Status.RECORDED))
+    assert badge["message"] == "1 cases, 1 deviations"
+    assert badge_record(run_of())["color"] == "lightgrey"
+
+
+def test_no_evidence_is_a_mistake(tmp_path: Path) -> None:
+    """A folder without a summary, or with something else."""
+    with pytest.raises(EvidenceError, match="cannot read"):
+        passed_before(tmp_path)
+    (tmp_path / "summary.json").write_text("[]", encoding="utf-8")
+    with pytest.raises(EvidenceError, match="found no summary"):
+        passed_before(tmp_path)
+
+
+def test_digests_change_with_what_they_are_of() -> None:
+    """Of a foreign candidate they are what its author says; without that there is none."""
+    assert digests.candidate_digest("cmd:x", None) == ""
+    assert digests.candidate_digest("cmd:x", "1") != digests.candidate_digest("cmd:x", "2")
+    assert digests.candidate_digest("cmd:x", "1") != digests.candidate_digest("cmd:y", "1")
+    assert digests.candidate_digest("oracle", None) != digests.candidate_digest("engine", None)
+    with pytest.raises(ModuleNotFoundError):
+        digests.sources_digest("no_such_package")
+    case, other = load_file(ORIGIN, Vary(poses=0)).cases
+    one, two = config.Draws(count=1), config.Draws(count=2)
+    asked = [(case, None), (other, None), (case, one), (case, two)]
+    assert len({digests.case_digest(which, poses, "s", "c") for which, poses in asked}) == len(asked)
+    assert digests.case_digest(case, None, "s", "") == ""
+
+
+class Slow:
+    """Answers the same, after counting how often it is asked."""
+
+    def __init__(self, name: str, *, skips: bool = False) -> None:
+        self.name = name
+        self.skips = skips
+        self.asked = 0
+
+    def answer(self, _query: Query) -> Result | Skipped:
+        """Answer."""
+        self.asked += 1
+        return Skipped("no") if self.skips else Result({})
+
+
+def test_both_are_asked_as_often() -> None:
+    """One round more than is timed; what one of them skips is not timed."""
+    queries = [Query("walk", {}), Query("walk", {})]
+    first, second = Slow("a"), Slow("b")
+    ratio, count = measure_ratio(queries, first, second, lambda _text: None)
+    assert count == 2
+    assert ratio > 0.0
+    assert first.asked == second.asked == 2 * 6
+    assert measure_ratio(queries, Slow("a", skips=True), second, lambda _text: None) == (0.0, 0)
+
+
+def test_baselines(tmp_path: Path) -> None:
+    """Read as written; of other queries, or no baseline at all, refused."""
+    path = tmp_path / "baseline.json"
+    baseline = Baseline("engine", 40.0, "abc")
+    path.write_text(baseline.to_json(), encoding="utf-8")
+    assert read_baseline(path, "abc") == baseline
+    with pytest.raises(BaselineError, match="measured with other cases"):
+        read_baseline(path, "abd")
+    for text in ("{", "[]", '{"candidate": "x", "queries": "abc", "ratio": 0}'):
+        path.write_text(text, encoding="utf-8")
+        with pytest.raises(BaselineError):
+            read_baseline(path, "abc")
+
+
+def test_speed_is_held_against_the_baseline(gate: Gate, monkeypatch: pytest.MonkeyPatch) -> None:
+    """A candidate that is slower than what is stored by far is a failure; the oracle is as fast as itself."""
+    walks = ROOT / "conformance" / "cases" / "walks" / "standstill.yaml"
+    monkeypatch.setattr(speed, "ROUNDS", 1)
+    monkeypatch.setattr(speed, "MOST_QUERIES", 1)
+    gate.config.write_text(f"cases: [{json.dumps(str(walks))}]\n", encoding="utf-8")
+    stored = gate.folder / "baseline.json"
+    assert gate("--write-baseline", stored, stage="performance") == exit_codes.OK
+    record = json.loads(stored.read_text(encoding="utf-8"))
+    for ratio, code in ((1e-3, exit_codes.OK), (1e6, exit_codes.FAILURES)):
+        stored.write_text(json.dumps({**record, "ratio": ratio}), encoding="utf-8")
+        part = f"performance: {{baseline: {stored.name}}}\n"
+        gate.config.write_text(f"cases: [{json.dumps(str(walks))}]\n{part}", encoding="utf-8")
+        assert gate(stage="performance") == code
+
+
+def test_the_page_shows_a_configuration_that_is_read(tmp_path: Path) -> None:
+    """Every key of it, and every key there is."""
+    page = (DOCS / "gate.md").read_text(encoding="utf-8")
+    (text,) = re.findall(r"^```yaml\n(.*?)^```", page, re.DOTALL | re.MULTILINE)
+    path = tmp_path / "gate.yaml"
+    path.write_text(text, encoding="utf-8")
+    changed = config.read_config(path, config.QUICK)
+    assert (changed.walks, changed.least_ratio) == (config.Draws(count=4, seed=7), 0.8)
+    assert set(re.findall(r"^(\w+):", text, re.MULTILINE)) == set(config.GateFile.model_fields)
+
+
+def test_the_page_tells_the_presets() -> None:
+    """Their numbers, as they are."""
+    page = (DOCS / "gate.md").read_text(encoding="utf-8")
+    for stage, presets in (("poses", "poses"), ("walks", "walks")):
+        counts = [getattr(one, presets).count for one in (config.QUICK, config.STANDARD, config.FULL)]
+        (row,) = re.findall(rf"^\| `{stage}` \|.*$", page, re.MULTILINE)
+        assert row.endswith(f"| {counts[0]} | {counts[1]} | {counts[2]} |")
+    for code in VERDICTS:
+        assert f"\n| {code} | " in page
+
+
+def test_the_workflow_runs_commands_that_there_are() -> None:
+    """It is YAML, and each of its gates is one that the command line understands."""
+    text = (DOCS / "examples" / "gate.yml").read_text(encoding="utf-8")
+    steps = yaml.safe_load(text)["jobs"]["gate"]["steps"]
+    lines = "\n".join(step["run"] for step in steps if "run" in step).replace("\\\n", " ").splitlines()
+    asked = [shlex.split(line.replace("${skip:-}", "")) for line in lines if "conformance gate" in line]
+    assert len(asked) == 2
+    for words in asked:
+        assert words[0] == "conformance"
+        assert _make_parser().parse_args(words[1:]).command == "gate"
+
+
+def test_the_page_of_deviations_shows_a_file_that_is_read(tmp_path: Path) -> None:
+    """It is the deviation of the bug that the tests use."""
+    page = (DOCS / "deviations.md").read_text(encoding="utf-8")
+    (text,) = re.findall(r"^```yaml\n(.*?)^```", page, re.DOTALL | re.MULTILINE)
+    path = tmp_path / "mine.yaml"
+    path.write_text(text, encoding="utf-8")
+    (entry,) = read_deviations(path).entries
+    assert entry.deviation.case == FAILING
+    for key in type(entry.deviation).model_fields:
+        assert f"| `{key}` |" in page
