@@ -8,8 +8,7 @@ from typing import TYPE_CHECKING, Final
 
 from conformance.deviations.entries import DeviationFile
 from conformance.source import Fault
-from conformance.validation import validate
-from conformance.yaml_source import read_document
+from conformance.yaml_model import read_model
 
 if TYPE_CHECKING:
     from collections.abc import Collection, Iterator
@@ -91,11 +90,8 @@ def read_deviations(path: Path) -> Deviations:
     YamlError
         It is not YAML.
     """
-    document = read_document(path)
-    file, faults = validate(DeviationFile, document.data)
-    problems = [problem for _, problem in document.refusals]
-    problems += [document.problem(fault) for fault in faults]
-    if file is None or problems:
+    document, file, problems = read_model(path, DeviationFile)
+    if file is None:
         raise DeviationError(problems)
     entries = (
         Entry(deviation, document.locate(("deviations", index)))

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass, replace
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated, Final
+from typing import Annotated, Final
 
 from pydantic import Field, field_validator
 
@@ -12,11 +12,7 @@ from conformance.gate.outcome import Stage
 from conformance.schema.mistakes import mistake
 from conformance.schema.values import Strictly
 from conformance.source import nearest, quoted
-from conformance.validation import validate
-from conformance.yaml_source import read_document
-
-if TYPE_CHECKING:
-    from conformance.source import Problem
+from conformance.yaml_model import read_model
 
 STRESS_FAMILIES: Final = ("translation", "rotation", "thresholds", "degenerate", "drift", "scale")
 """As `conformance.stress.families` has them, which comes with an extra."""
@@ -146,11 +142,8 @@ def read_config(path: Path, preset: Gate) -> Gate:
     YamlError
         It is not YAML.
     """
-    document = read_document(path)
-    file, faults = validate(GateFile, document.data)
-    problems: list[Problem] = [problem for _, problem in document.refusals]
-    problems += [document.problem(fault) for fault in faults]
-    if file is None or problems:
+    _, file, problems = read_model(path, GateFile)
+    if file is None:
         raise GateConfigError("\n".join(str(problem) for problem in problems))
     return _changed(preset, file, path.parent)
 

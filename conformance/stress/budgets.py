@@ -17,13 +17,11 @@ from conformance.source import nearest
 from conformance.stress.families import FAMILIES
 from conformance.stress.findings import CANDIDATE, DIFFERING
 from conformance.stress.quantities import HEADINGS, MEDIAN
-from conformance.validation import validate
-from conformance.yaml_source import read_document
+from conformance.yaml_model import read_model
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
 
-    from conformance.source import Problem
     from conformance.stress.findings import Findings, Reading
 
 FOLDER: Final = Path(__file__).parent / "budgets"
@@ -123,11 +121,8 @@ def read_budget(path: Path) -> Budget:
     YamlError
         It is not YAML.
     """
-    document = read_document(path)
-    budget, faults = validate(Budget, document.data)
-    problems: list[Problem] = [problem for _, problem in document.refusals]
-    problems += [document.problem(fault) for fault in faults]
-    if budget is None or problems:
+    _, budget, problems = read_model(path, Budget)
+    if budget is None:
         raise BudgetError("\n".join(str(problem) for problem in problems))
     return budget
 
