@@ -6,8 +6,8 @@ import argparse
 import textwrap
 from typing import TYPE_CHECKING, Final
 
+from conformance.commands.one_case import add_case, add_pose, ending, find_case, query_of
 from conformance.commands.options import UsageError
-from conformance.commands.trace import ending, find_case, pose_number, query_of
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
@@ -28,14 +28,8 @@ _WIDTH: Final = 100
 
 def configure(parser: argparse.ArgumentParser) -> None:
     """Add the command's arguments."""
-    parser.add_argument("case", metavar="CASE-ID|FILE::ID", help="a built-in case, or a case of a file")
-    parser.add_argument(
-        "--pose",
-        type=pose_number,
-        default=0,
-        metavar="N",
-        help="the case in its Nth random pose (default: 0, as written)",
-    )
+    add_case(parser)
+    add_pose(parser)
     parser.add_argument(
         "--tick", type=_tick, metavar="N", help="the tick of a walk, from 0; a walk is told tick by tick"
     )

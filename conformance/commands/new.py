@@ -6,8 +6,8 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Final
 
 from conformance import exit_codes
+from conformance.commands.one_case import find_case
 from conformance.commands.options import UsageError
-from conformance.commands.trace import find_case
 
 if TYPE_CHECKING:
     import argparse

@@ -8,8 +8,8 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Final
 
 from conformance import exit_codes
+from conformance.commands.one_case import find_case, pose_number
 from conformance.commands.options import UsageError, add_candidate_option, candidate_from
-from conformance.commands.trace import find_case, pose_number
 
 if TYPE_CHECKING:
     import argparse

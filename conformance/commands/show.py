@@ -7,8 +7,8 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Final
 
 from conformance import exit_codes
+from conformance.commands.one_case import add_case, add_pose, find_case, query_of
 from conformance.commands.options import UsageError, add_candidate_option, candidate_from
-from conformance.commands.trace import find_case, pose_number, query_of
 
 if TYPE_CHECKING:
     import argparse
@@ -26,7 +26,7 @@ EXAMPLES: Final = (
 
 def configure(parser: argparse.ArgumentParser) -> None:
     """Add the command's arguments."""
-    parser.add_argument("case", metavar="CASE-ID|FILE::ID", help="a built-in case, or a case of a file")
+    add_case(parser)
     parser.add_argument(
         "--work",
         action="store_true",
@@ -41,13 +41,7 @@ def configure(parser: argparse.ArgumentParser) -> None:
         help="draw the scene as a PNG file: cells, both movers, their contact planes, the polygon in "
         "question; of a walk the first tick that differs (needs the extra `viz`)",
     )
-    parser.add_argument(
-        "--pose",
-        type=pose_number,
-        default=0,
-        metavar="N",
-        help="the case in its Nth random pose (default: 0, as written)",
-    )
+    add_pose(parser)
     add_candidate_option(parser, default="oracle")
 
 
