@@ -50,6 +50,7 @@ class Registrar:
         self._world: Final = world
         self._objects: Final = objects
         self._row: Array = world.new_row()
+        _check_cells(objects)
         self._positions: Final = position_rows(
             [thing.pose for thing in objects], [f"object {i}, pose" for i in range(len(objects))]
         ).ravel()
@@ -183,6 +184,13 @@ def _bounding_sphere(part: Part, shape: Shape, where: str) -> Array:
 
 def _parts_of(thing: Obstacle) -> list[Part]:
     return [part for part in thing.parts if part.shape is not None] if thing.has_part_array else []
+
+
+def _check_cells(objects: Sequence[Obstacle]) -> None:
+    """See that minus the id of an object's cell, which stands for one that is not loaded, is no index."""
+    for index, thing in enumerate(objects):
+        if thing.pose.cell == 0:
+            raise WorldError(f"object {index}, pose", "cell id 0 is not the id of a cell")
 
 
 def _check_portals(world: World) -> None:

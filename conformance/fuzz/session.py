@@ -1,19 +1,23 @@
-"""One run of the fuzzer: a worker process, what it says while it runs, and what came of it."""
+"""One run of the fuzzer: its worker processes, what they say while they run, and what came of it."""
 
 from __future__ import annotations
 
 import re
 import subprocess
 import sys
+import tempfile
 import time
 from collections import deque
 from dataclasses import dataclass
 from importlib.util import find_spec
+from itertools import count
+from pathlib import Path
 from typing import TYPE_CHECKING, Final
+
+from conformance.fuzz.tally import new_tally, read_tally
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterable, Sequence
-    from pathlib import Path
 
     from conformance.fuzz.targets import Target
 
@@ -23,12 +27,12 @@ LONGEST_RUN: Final = 60
 """Seconds after which one execution is a hang."""
 MOST_MEMORY: Final = 3000
 """MB that the worker may take."""
+MOST_RUNS: Final = 100_000
+"""Executions of a process; the next goes on from what it kept, with another seed and fresh memory."""
 BROKEN_OFF: Final = "broken off"
 """How a run ends that Ctrl-C has ended."""
 _SHOWN_LINES: Final = 40
 _PULSE: Final = re.compile(r"^#(\d+)\s.*exec/s: (\d+)")
-_DONE: Final = re.compile(r"^stat::number_of_executed_units: (\d+)")
-_ACCEPTED: Final = re.compile(r"^accepted: (\d+)")
 _WRITTEN: Final = re.compile(r"Test unit written to (.+)$")
 
 
@@ -82,7 +86,7 @@ def fuzz(
     findings: Path,
     say: Callable[[str], None],
 ) -> Report:
-    """Run a target's worker to its end; Ctrl-C ends it early, and what is known by then is reported.
+    """Run a target's workers, one after the other; Ctrl-C ends them early, and what is known is reported.
 
     Parameters
     ----------
@@ -91,9 +95,9 @@ def fuzz(
     folders : sequence of Path
         Inputs to start from; new ones are written to the first.
     runs : int
-        Executions.
+        Executions; every worker begins with all inputs of the folders, which count.
     seed : int
-        Of the fuzzer's choices; 0 takes a new one.
+        Of the fuzzer's choices, one more for each further worker; 0 takes new ones.
     findings : Path
         Folder, already there, into which an input that fails is written.
     say : callable
@@ -104,13 +108,27 @@ def fuzz(
     FuzzerMissingError
     """
     check_fuzzer()
-    command = [
-        *(sys.executable, "-m", "conformance.fuzz.worker", target.name),
-        *(f"-runs={runs}", f"-seed={seed}", f"-max_len={LONGEST_INPUT}", f"-timeout={LONGEST_RUN}"),
-        *(f"-rss_limit_mb={MOST_MEMORY}", "-print_final_stats=1", f"-artifact_prefix={findings}/"),
-        *map(str, folders),
-    ]
     report, started = Report(), time.monotonic()
+    with tempfile.TemporaryDirectory() as scratch:
+        tally = Path(scratch, "tally")
+        for number in count():
+            left = min(runs - report.executed, MOST_RUNS)
+            if left <= 0 or report.ended:
+                break
+            command = [
+                *(sys.executable, "-m", "conformance.fuzz.worker", target.name, str(tally)),
+                *(f"-runs={left}", f"-seed={seed + number if seed else 0}", f"-max_len={LONGEST_INPUT}"),
+                *(f"-timeout={LONGEST_RUN}", f"-rss_limit_mb={MOST_MEMORY}", f"-artifact_prefix={findings}/"),
+                *map(str, folders),
+            ]
+            _run_worker(command, tally, report, say)
+    report.seconds = time.monotonic() - started
+    return report
+
+
+def _run_worker(command: Sequence[str], tally: Path, report: Report, say: Callable[[str], None]) -> None:
+    """Run a worker to its end, and add to the report what came of it."""
+    new_tally(tally)
     with subprocess.Popen(  # noqa: S603 - our own module, with arguments of our own
         command, stderr=subprocess.PIPE, stdout=subprocess.DEVNULL, encoding="utf-8", errors="replace"
     ) as worker:
@@ -119,26 +137,24 @@ def fuzz(
         except KeyboardInterrupt:
             worker.terminate()
             report.ended = BROKEN_OFF
-    report.seconds = time.monotonic() - started
+    executed, accepted = read_tally(tally)
+    report.executed += executed
+    report.accepted += accepted
     if not report.ended and worker.returncode:
         report.ended = _ending(worker.returncode)
-    return report
+    elif not report.ended and not executed:
+        report.ended = "the worker ran nothing"
 
 
 def _follow(lines: Iterable[str], report: Report, say: Callable[[str], None]) -> None:
     last: deque[str] = deque(maxlen=_SHOWN_LINES)
     for line in lines:
         if pulse := _PULSE.match(line):
-            report.executed = int(pulse[1])
-            say(f"{pulse[1]} executions, {pulse[2]} a second")
+            say(f"{report.executed + int(pulse[1])} executions, {pulse[2]} a second")
             continue
         last.append(line.rstrip())
         report.output = tuple(last)
-        if done := _DONE.match(line):
-            report.executed = int(done[1])
-        elif accepted := _ACCEPTED.match(line):
-            report.accepted = int(accepted[1])
-        elif written := _WRITTEN.search(line):
+        if written := _WRITTEN.search(line):
             report.finding = written[1]
 
 

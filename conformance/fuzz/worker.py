@@ -1,4 +1,4 @@
-"""Run a target under libFuzzer: ``python -m conformance.fuzz.worker TARGET [libFuzzer's arguments]``.
+"""Run a target under libFuzzer: ``python -m conformance.fuzz.worker TARGET TALLY [libFuzzer's arguments]``.
 
 `conformance fuzz` starts it; libFuzzer ends the process by itself. Two things are left out that take two
 thirds of the time and are none of our code: guesses of what was meant, and the second look at a syntax error.
@@ -7,7 +7,6 @@ Replaying the corpus, as the tests do, runs them.
 
 from __future__ import annotations
 
-import atexit
 import difflib
 import sys
 from importlib import import_module
@@ -17,16 +16,15 @@ from typing import Any, Final
 
 import atheris
 
+from conformance.fuzz.tally import Tally
 from conformance.fuzz.targets import TARGETS
 
-ACCEPTED: Final = "accepted:"
-"""Begins the line that says how many inputs were accepted."""
 REWORDED: Final = 64
 """Characters of the longest text whose syntax error is also looked up with PyYAML's slow parser."""
 
 
 def main() -> None:
-    """Fuzz the target that the command line names."""
+    """Fuzz the target that the command line names, and count in the file that it names."""
     target = TARGETS[sys.argv[1]]
     module: Any = difflib
     module.get_close_matches = lambda *_args, **_options: []  # guesses of what was meant
@@ -36,14 +34,12 @@ def main() -> None:
     for file in sorted(target.corpus.iterdir()):
         run(file.read_bytes())  # kernels are compiled now, which is no hang
     yaml_source.MAX_REWORDED = REWORDED
-    accepted = 0
+    tally = Tally(Path(sys.argv[2]))
 
     def once(data: bytes) -> None:
-        nonlocal accepted
-        accepted += run(data)
+        tally.count(accepted=run(data))
 
-    atexit.register(lambda: sys.stderr.write(f"{ACCEPTED} {accepted}\n"))
-    atheris.Setup([sys.argv[0], *sys.argv[2:]], once)
+    atheris.Setup([sys.argv[0], *sys.argv[3:]], once)
     atheris.Fuzz()
 
 

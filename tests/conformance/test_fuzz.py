@@ -88,6 +88,7 @@ def test_the_fuzzer_runs(name: str, tmp_path: Path) -> None:
     report = fuzz(TARGETS[name], folders, runs=RUNS[name], seed=1, findings=tmp_path, say=said.append)
     assert (report.finding, report.ended) == ("", ""), "\n".join(report.output)
     assert report.executed >= RUNS[name]
+    assert 0 < report.accepted < report.executed
 
 
 def test_without_the_fuzzer_the_extra_is_named(
@@ -113,15 +114,18 @@ def test_a_killed_worker_is_told(monkeypatch: pytest.MonkeyPatch, tmp_path: Path
     monkeypatch.setattr("conformance.fuzz.session.find_spec", lambda _: True)
     monkeypatch.setattr(sys, "executable", _script(tmp_path))
     report = fuzz(TARGETS["yaml"], [tmp_path], runs=1, seed=1, findings=tmp_path, say=lambda _: None)
-    assert report.executed == 7
+    assert (report.executed, report.accepted) == (7, 2)
     assert report.ended == "the worker ended with code 3"
 
 
 def _script(folder: Path) -> str:
-    """Write a program that does as the fuzzer does at first, and then ends."""
+    """Write a program that counts seven executions in its tally, and then ends."""
     if sys.platform == "win32":
         pytest.skip("skipped: a script is no program on Windows, and there is no fuzzer")
     script = folder / "worker"
-    script.write_text("#!/bin/sh\necho '#7 pulse exec/s: 5' >&2\nexit 3\n", encoding="utf-8")
+    tally = r"\007\000\000\000\000\000\000\000\002\000\000\000\000\000\000\000"
+    script.write_text(
+        f"#!/bin/sh\nprintf '{tally}' > \"$4\"\necho '#7 pulse exec/s: 5' >&2\nexit 3\n", encoding="utf-8"
+    )
     script.chmod(0o755)
     return str(script)

@@ -310,3 +310,9 @@ def test_an_object_that_is_wrong_is_named(change: dict[str, object], complaint: 
     wrong = replace(indoors(60.0), **change)  # type: ignore[arg-type]
     with pytest.raises(ValueError, match=complaint):
         register(house(), [indoors(60.0), wrong])
+
+
+def test_an_object_in_no_cell_is_refused() -> None:
+    """Cell id 0 is that of nowhere; minus it would be the index of a cell."""
+    with pytest.raises(WorldError, match="object 0, pose: cell id 0 is not the id of a cell"):
+        World(landblocks=[LandBlock(BLOCK, [0.0] * 81)], objects=[Obstacle(Pose(0), state=STATIC)])

@@ -189,6 +189,11 @@ WRONG: list[tuple[list[Cell], str]] = [
         [Cell(CELL, Pose(CELL), SHAPE, portals=[Portal(CELL, side=2)])],
         "cell 0xa9b40111, portal 0, side: 2 is neither 0 nor 1",
     ),
+    ([Cell(CELL, Pose(CELL), SHAPE, portals=[0])], "cell 0xa9b40111, portal 0: 0x0 is not the id of a cell"),
+    (
+        [Cell(CELL, Pose(CELL), SHAPE, portals=[-1])],
+        "cell 0xa9b40111, portal 0: -0x1 is not the id of a cell",
+    ),
 ]
 WRONG_POSES: list[tuple[Pose, str]] = [
     (Pose(1 << 32), "pose: cell id 4294967296 is not a 32-bit number"),
