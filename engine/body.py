@@ -3,22 +3,22 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, Final
 
 import numpy as np
 
 from engine import layout as at
 from engine.body_layout import BODY_DTYPE
+from engine.checks import finite, flag, number, optional, record, sequence, whole
 from engine.constants import ACTIVE_TS, DEFAULT_ELASTICITY, DEFAULT_FRICTION, DEFAULT_STATE
 from engine.errors import QueryError
 from engine.float32 import float32_array
-from engine.pose import position_row
+from engine.pose import Pose, check_pose, position_row
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
     from engine.kernels.types import Array
-    from engine.pose import Pose
     from engine.query import Rows
     from engine.world import World
 
@@ -103,6 +103,22 @@ class Body:
     update_time: float = 0.0
 
 
+_CHECK_BODY: Final = record(
+    Body,
+    pose=check_pose,
+    spheres=sequence,
+    scale=number,
+    **dict.fromkeys(("state", "transient_state", "contact_plane_cell", "id"), whole()),
+    **dict.fromkeys(
+        (
+            *("has_movement_manager", "free_heading", "bypasses_restrictions"),
+            *("colliding_with_environment", "tracks_objects", "has_parent"),
+        ),
+        flag,
+    ),
+    weenie_bits=optional(whole()),
+    update_time=finite,
+)
 _VECTORS = {
     "velocity": at.VECTOR_SIZE,
     "acceleration": at.VECTOR_SIZE,
@@ -133,9 +149,11 @@ def body_rows(world: World, bodies: Sequence[Body]) -> Rows:
     QueryError, PoseError
         Naming the body and what is wrong with it.
     """
+    sequence(bodies, "bodies", QueryError)
     rows = np.zeros(len(bodies), dtype=BODY_DTYPE)
     for index, body in enumerate(bodies):
         where = f"body {index}"
+        _CHECK_BODY(body, where, QueryError)
         row = rows[index]
         row["cell"] = world.cell_index(body.pose.cell)
         if row["cell"] == at.NO_CELL:

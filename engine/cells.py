@@ -3,12 +3,17 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any, Final
+
+from engine.checks import flag, optional, record, sequence, several, whole
+from engine.geometry import Shape
+from engine.objects import CHECK_OBSTACLE
+from engine.pose import check_pose
 
 if TYPE_CHECKING:
     from collections.abc import Collection, Sequence
 
-    from engine.geometry import Shape
+    from engine.errors import InputError
     from engine.objects import Obstacle
     from engine.pose import Pose
 
@@ -80,3 +85,23 @@ class Cell:
     objects: Sequence[Obstacle] = ()
     portals: Sequence[Portal | int] | None = ()
     stab: Sequence[int] = ()
+
+
+_CHECK_PORTAL: Final = record(Portal, other=optional(whole(1)), polygon=optional(sequence), side=whole(0, 1))
+CHECK_RESTRICTION: Final = record(Restriction, admits=several(whole(1)), is_known=flag)
+
+
+def _check_way(value: Any, where: str, error: type[InputError]) -> None:
+    """Check a portal, or the id that stands for one."""
+    (whole(1) if isinstance(value, int) else _CHECK_PORTAL)(value, where, error)
+
+
+CHECK_CELL: Final = record(
+    Cell,
+    id=whole(),
+    pose=check_pose,
+    shape=optional(record(Shape)),
+    objects=several(CHECK_OBSTACLE),
+    portals=optional(several(_check_way)),
+    stab=several(whole()),
+)

@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Final, TypeAlias
 
 import numpy as np
 
+from engine.checks import LARGEST_INDEX, flag, record, sequence, several, told, whole
 from engine.errors import GeometryError
 from engine.float32 import float32_array
 from engine.kernels.polygon import polygon_make_plane
@@ -77,6 +78,9 @@ class Node:
 
 
 Tree: TypeAlias = Node | Leaf
+
+_WHOLE: Final = whole(-LARGEST_INDEX, LARGEST_INDEX)
+_CHECK_LEAF: Final = record(Leaf, polygons=several(_WHOLE), solid=flag)
 
 _NO_PLANE: Final = (0.0, 0.0, 0.0, 0.0)
 
@@ -150,12 +154,14 @@ class Shape:
 
 def _flatten_polygons(points: Array, polygons: Sequence[Sequence[int]], name: str) -> tuple[Ints, Array]:
     """Lay polygon records behind each other, with their planes; return their offsets and the floats."""
+    several(sequence)(polygons, f"{name}, polygons", GeometryError)
     sizes = [_record_size(len(polygon)) for polygon in polygons]
     offsets = np.concatenate(([0], np.cumsum(sizes, dtype=np.int64)))
     floats = np.zeros(offsets[-1], dtype=np.float64)
     for index, polygon in enumerate(polygons):
         at = int(offsets[index])
         for vertex in polygon:
+            _WHOLE(vertex, f"{name}, polygon {index}", GeometryError)
             if not 0 <= vertex < len(points):
                 raise GeometryError(
                     f"{name}, polygon {index}", f"vertex {vertex} does not exist ({len(points)} vertices)"
@@ -210,7 +216,9 @@ class _FlatTree:
                 self._add_leaf(node, where)
                 continue
             if not isinstance(node, Node):
-                raise GeometryError(where, f"not a Node or Leaf but {node!r}: every node has both children")
+                raise GeometryError(
+                    where, f"not a Node or Leaf but {told(node)}: every node has both children"
+                )
             if id(node) in seen:
                 raise GeometryError(where, "the node is its own ancestor, or used twice")
             seen.add(id(node))
@@ -226,6 +234,7 @@ class _FlatTree:
         self._floats.append(record)
 
     def _add_leaf(self, leaf: Leaf, where: str) -> None:
+        _CHECK_LEAF(leaf, where, GeometryError)
         self._add_record(_NO_PLANE, leaf.sphere, where)
         for polygon in leaf.polygons:
             if not 0 <= polygon < self._num_polygons:

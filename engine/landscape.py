@@ -3,13 +3,14 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Final
+
+from engine.checks import LARGEST_INDEX, optional, record, sequence, several, whole
+from engine.geometry import Shape
+from engine.pose import Pose, check_pose
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
-
-    from engine.geometry import Shape
-    from engine.pose import Pose
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -75,3 +76,17 @@ class Building:
     shape: Shape | None
     portals: Sequence[BuildingPortal] = ()
     block: int | None = None
+
+
+CHECK_BLOCK: Final = record(
+    LandBlock, id=whole(), heights=sequence, terrain=optional(several(whole())), side_cell_count=whole()
+)
+CHECK_BUILDING: Final = record(
+    Building,
+    pose=check_pose,
+    shape=optional(record(Shape)),
+    portals=several(
+        record(BuildingPortal, other=whole(1), other_portal=whole(-LARGEST_INDEX, LARGEST_INDEX))
+    ),
+    block=optional(whole()),
+)

@@ -4,14 +4,15 @@ from __future__ import annotations
 
 from dataclasses import dataclass, field
 from enum import IntEnum
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Final
 
 import numpy as np
 
 from engine import constants
 from engine import layout as at
+from engine.checks import LARGEST_INDEX, record, sequence, whole
 from engine.errors import QueryError
-from engine.query import Move, PathState, fill_call, fill_path
+from engine.query import CHECK_MOVE, Move, PathState, fill_call, fill_path
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -55,11 +56,22 @@ class ObjectCall:
     path: PathState = field(default_factory=PathState)
 
 
+_CHECK_CALL: Final = record(
+    ObjectCall,
+    move=CHECK_MOVE,
+    target=record(Target),
+    object_index=whole(-LARGEST_INDEX, LARGEST_INDEX),
+    path=record(PathState),
+)
+
+
 def object_rows(world: World, calls: Sequence[ObjectCall]) -> Rows:
     """Return a row for each call; raises `QueryError` or `PoseError` naming the call."""
+    sequence(calls, "calls", QueryError)
     rows = np.zeros(len(calls), dtype=at.QUERY_DTYPE)
     for index, call in enumerate(calls):
         where = f"call {index}"
+        _CHECK_CALL(call, where, QueryError)
         row = rows[index]
         fill_call(row, world, call.move, where)
         fill_path(row, call.path, where)

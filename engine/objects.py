@@ -3,15 +3,15 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Final
 
+from engine.checks import flag, number, optional, record, sequence, several, whole
 from engine.constants import HAS_PHYSICS_BSP, STATIC
+from engine.geometry import Shape
+from engine.pose import Pose, check_pose
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
-
-    from engine.geometry import Shape
-    from engine.pose import Pose
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -114,3 +114,30 @@ class Obstacle:
     ) -> Obstacle:
         """Return an object of one part."""
         return cls(pose, scale, state, (Part(shape),))
+
+
+_CHECK_PART: Final = record(
+    Part,
+    shape=optional(record(Shape)),
+    pose=optional(check_pose),
+    scale=optional(number),
+    always_flat=flag,
+    has_physics=flag,
+    drawing_sphere=optional(sequence),
+)
+CHECK_OBSTACLE: Final = record(
+    Obstacle,
+    pose=check_pose,
+    scale=number,
+    state=whole(),
+    parts=several(_CHECK_PART),
+    cylspheres=several(sequence),
+    spheres=several(sequence),
+    weenie=optional(
+        record(Weenie, **dict.fromkeys(("creature", "player", "pk", "pklite", "impenetrable"), flag))
+    ),
+    id=whole(),
+    has_parent=flag,
+    has_part_array=flag,
+    sorting_sphere=optional(sequence),
+)

@@ -3,11 +3,12 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any, Final
 
 import numpy as np
 
 from engine import layout as at
+from engine.checks import LARGEST_ID, record, whole
 from engine.constants import EPS5
 from engine.errors import PoseError
 from engine.float32 import float32_array
@@ -16,6 +17,7 @@ from engine.kernels.frame import frame_cache
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
+    from engine.errors import InputError
     from engine.kernels.types import Array
 
 
@@ -38,6 +40,14 @@ class Pose:
     rotation: Sequence[float] = (1.0, 0.0, 0.0, 0.0)
 
 
+_CHECK_FIELDS: Final = record(Pose, cell=whole())
+
+
+def check_pose(value: Any, where: str, _error: type[InputError]) -> None:
+    """Check that something is a pose; the error is a `PoseError`, whatever the pose belongs to."""
+    _CHECK_FIELDS(value, where, PoseError)
+
+
 def pose_row(pose: Pose, where: str) -> Array:
     """Return a checked pose as numbers: cell id, quaternion w x y z, origin x y z.
 
@@ -47,8 +57,7 @@ def pose_row(pose: Pose, where: str) -> Array:
         If it is not finite, or its rotation not of unit length as retail counts it
         (retail: Frame::IsValid 0x00534ED0, 01 4.3).
     """
-    if not 0 <= pose.cell <= 0xFFFF_FFFF:
-        raise PoseError(where, f"cell id {pose.cell} is not a 32-bit number")
+    check_pose(pose, where, PoseError)
     origin = float32_array(pose.origin, (3,), f"{where}, origin", PoseError)
     quaternion = float32_array(pose.rotation, (4,), f"{where}, rotation", PoseError)
     w, x, y, z = (float(c) for c in quaternion)
@@ -81,7 +90,7 @@ def position_rows(poses: Sequence[Pose], where: Sequence[str]) -> Array:
         rows[:, at.QUATERNION : at.QUATERNION + at.QUATERNION_SIZE] = _stored([p.rotation for p in poses], 4)
         rows[:, at.ORIGIN :] = _stored([p.origin for p in poses], 3)
         valid = _all_valid(rows)
-    except (TypeError, ValueError):
+    except (AttributeError, OverflowError, TypeError, ValueError):
         valid = False
     if not valid:
         for pose, name in zip(poses, where, strict=True):
@@ -104,5 +113,5 @@ def _all_valid(rows: Array) -> bool:
     w, x, y, z = rows[:, at.QUATERNION : at.QUATERNION + at.QUATERNION_SIZE].T
     with np.errstate(over="ignore"):
         length = (((z * z + y * y) + x * x) + w * w).astype(np.float32).astype(np.float64)
-    ids = (rows[:, 0] >= 0) & (rows[:, 0] <= 0xFFFF_FFFF)
+    ids = (rows[:, 0] >= 0) & (rows[:, 0] <= LARGEST_ID) & (rows[:, 0] % 1.0 == 0.0)
     return bool(ids.all() and np.isfinite(rows).all() and (np.abs(length - 1.0) <= EPS5).all())

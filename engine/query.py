@@ -3,25 +3,27 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, field, fields
-from typing import TYPE_CHECKING, Any, TypeAlias
+from typing import TYPE_CHECKING, Any, Final, TypeAlias
 
 import numpy as np
 import numpy.typing as npt
 
 from engine import layout as at
+from engine.checks import LARGEST_INDEX, flag, optional, record, sequence, whole
 from engine.effort import check_way
 from engine.errors import QueryError
 from engine.float32 import float32_array
-from engine.pose import pose_row
+from engine.pose import Pose, check_pose, pose_row
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
-    from engine.pose import Pose
     from engine.world import World
 
 Rows: TypeAlias = npt.NDArray[np.void]
 """An array of `engine.layout.QUERY_DTYPE` or `RESULT_DTYPE` records."""
+MOST_STATIONARY: Final = 3
+"""Frames without movement in the air that retail counts (05, frames_stationary_fall)."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -170,10 +172,43 @@ class CollisionCall:
     path: PathState = field(default_factory=PathState)
 
 
+_CHECK_CONTACT: Final = record(ContactPlane, cell=whole(), is_water=flag)
+_CHECK_MOVER: Final = record(
+    Mover,
+    spheres=sequence,
+    state=whole(),
+    **dict.fromkeys(("ethereal", "may_step_down", "gravity", "missile", "restricted"), flag),
+    id=whole(),
+    target_id=whole(),
+)
+CHECK_MOVE: Final = record(
+    Move,
+    mover=_CHECK_MOVER,
+    end=check_pose,
+    begin_cell=whole(),
+    start=optional(check_pose),
+    seed=record(
+        Seed,
+        contact=optional(_CHECK_CONTACT),
+        last_known=optional(_CHECK_CONTACT),
+        frames_stationary_fall=whole(0, MOST_STATIONARY),
+    ),
+    placement_allows_sliding=flag,
+)
+_CHECK_CALL: Final = record(
+    CollisionCall,
+    move=CHECK_MOVE,
+    object_index=optional(whole(-LARGEST_INDEX, LARGEST_INDEX)),
+    path=record(PathState),
+)
+
+
 def move_rows(world: World, moves: Sequence[Move]) -> Rows:
     """Return a row for each move; raises `QueryError` or `PoseError` naming the move."""
+    sequence(moves, "moves", QueryError)
     rows = np.zeros(len(moves), dtype=at.QUERY_DTYPE)
     for index, move in enumerate(moves):
+        CHECK_MOVE(move, f"move {index}", QueryError)
         row = rows[index]
         fill_move(row, world, move, f"move {index}")
         start = None if move.start is None else row["start"]
@@ -191,9 +226,11 @@ def fill_call(row: Any, world: World, move: Move, where: str) -> None:
 
 def collision_rows(world: World, calls: Sequence[CollisionCall]) -> Rows:
     """Return a row for each call; raises `QueryError` or `PoseError` naming the call."""
+    sequence(calls, "calls", QueryError)
     rows = np.zeros(len(calls), dtype=at.QUERY_DTYPE)
     for index, call in enumerate(calls):
         where = f"call {index}"
+        _CHECK_CALL(call, where, QueryError)
         row = rows[index]
         fill_call(row, world, call.move, where)
         row["target_object"] = _object(world, call, where)
@@ -252,9 +289,9 @@ def _fill_mover(row: Any, mover: Mover, where: str) -> None:
     row["ethereal"] = mover.ethereal
     row["may_step_down"] = mover.may_step_down
     row["gravity"] = mover.gravity
-    row["mover_id"] = _object_id(mover.id, f"{where}, id")
+    row["mover_id"] = mover.id
     row["mover_missile"] = mover.missile
-    row["target_id"] = _object_id(mover.target_id, f"{where}, target id")
+    row["target_id"] = mover.target_id
     row["mover_restricted"] = mover.restricted
 
 
@@ -272,12 +309,6 @@ def _fill_seed(row: Any, seed: Seed, where: str) -> None:
             seed.sliding_normal, (at.VECTOR_SIZE,), f"{where}, sliding normal", QueryError
         )
     row["frames_stationary_fall"] = seed.frames_stationary_fall
-
-
-def _object_id(value: int, where: str) -> int:
-    if not 0 <= value <= 0xFFFF_FFFF:
-        raise QueryError(where, f"{value} is not a 32-bit number")
-    return value
 
 
 def _number(value: float, where: str) -> float:

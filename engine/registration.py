@@ -98,7 +98,7 @@ class Registrar:
         world, thing = self._world, self._objects[index]
         home = float(thing.pose.cell)
         while lacking := find_bbox_cell_list(
-            world.floats, world.ints, self._row, home, thing.has_part_array, *self._parts.of(index)
+            world.floats, world.ints, self._row, home, bool(thing.has_part_array), *self._parts.of(index)
         ):
             self._row = np.concatenate((self._row, np.zeros(lacking)))
 

@@ -12,6 +12,7 @@ from functools import cache
 from threading import Lock
 from typing import TYPE_CHECKING, Final
 
+from engine.checks import told
 from engine.errors import QueryError
 from engine.tracing import is_recording
 
@@ -40,8 +41,8 @@ def in_parts(work: Callable[[slice], None], count: int, threads: int) -> None:
     QueryError
         If `threads` is not a number of threads.
     """
-    if threads < 1:
-        raise QueryError("threads", f"{threads} where at least 1 is needed")
+    if not isinstance(threads, int) or threads < 1:
+        raise QueryError("threads", f"{told(threads)} where at least 1 is needed")
     sharing = 1 if is_recording() else min(threads, count)
     if sharing <= 1:
         work(slice(0, count))

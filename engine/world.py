@@ -7,6 +7,8 @@ from typing import TYPE_CHECKING, Final
 import numpy as np
 
 from engine import layout as at
+from engine.cells import CHECK_CELL, CHECK_RESTRICTION
+from engine.checks import keyed, optional, several
 from engine.compiling.balls import write_plates
 from engine.compiling.bounds import write_bounds
 from engine.compiling.cells import CellNumbers, ObjectLists, write_buildings, write_cells
@@ -16,7 +18,9 @@ from engine.compiling.restrictions import write_restrictions
 from engine.compiling.storage import Storage
 from engine.compiling.terrain import DETAILS, SIDE
 from engine.errors import WorldError
+from engine.landscape import CHECK_BLOCK, CHECK_BUILDING
 from engine.memory import aligned
+from engine.objects import CHECK_OBSTACLE
 from engine.plan import NO_PLAN, Plan
 from engine.shadows import register
 
@@ -31,6 +35,17 @@ if TYPE_CHECKING:
 
 _MAX_OUTSIDE: Final = 9 * 10
 """Most land cells that are listed at once: nine about each of the ten balls of an object (09, 5.4)."""
+
+
+_CHECKS: Final = {
+    "cells": several(CHECK_CELL),
+    "landblocks": several(CHECK_BLOCK),
+    "buildings": several(CHECK_BUILDING),
+    "shadows": optional(keyed(several(CHECK_OBSTACLE))),
+    "objects": several(CHECK_OBSTACLE),
+    "restrictions": optional(keyed(CHECK_RESTRICTION)),
+}
+"""What a world is given, in the order of its parameters."""
 
 
 class World:
@@ -79,6 +94,10 @@ class World:
         objects: Sequence[Obstacle] = (),
         restrictions: Mapping[int, Restriction] | None = None,
     ) -> None:
+        for given, (name, check) in zip(
+            (cells, landblocks, buildings, shadows, objects, restrictions), _CHECKS.items(), strict=True
+        ):
+            check(given, name, WorldError)
         blocks = _in_full_detail(landblocks)
         numbers = CellNumbers(cells, blocks)
         found = register(World(cells, landblocks, buildings), objects) if objects else {}

@@ -58,16 +58,8 @@ class CellNumbers:
         """Return a cell's index, or `NO_CELL`."""
         return self._index.get(cell_id, int(at.NO_CELL))
 
-    def behind_portal(self, cell_id: int, where: str) -> int:
-        """Return a cell's index, or minus its id if it is not in the world (`PORTAL_CELL`).
-
-        Raises
-        ------
-        WorldError
-            If that would not be negative, and so be taken for an index.
-        """
-        if not 0 < cell_id <= 0xFFFF_FFFF:
-            raise WorldError(where, f"{cell_id:#x} is not the id of a cell")
+    def behind_portal(self, cell_id: int) -> int:
+        """Return a cell's index, or minus its id if it is not in the world (`PORTAL_CELL`)."""
         index = self.index(cell_id)
         if index != at.NO_CELL:
             return index
@@ -86,7 +78,7 @@ class CellNumbers:
 def _check_ids(ids: Sequence[int]) -> None:
     seen: set[int] = set()
     for index, cell_id in enumerate(ids):
-        if not 0 <= cell_id <= 0xFFFF_FFFF or (cell_id & 0xFFFF) < FIRST_INDOOR:
+        if (cell_id & 0xFFFF) < FIRST_INDOOR:
             raise WorldError(f"cell {index}", f"{cell_id:#x} is not the id of an indoor cell")
         if cell_id in seen:
             raise WorldError(f"cell {index}", f"id {cell_id:#010x} is used twice")
@@ -197,9 +189,7 @@ def _cell_ints(storage: Storage, numbers: CellNumbers, cell: Cell) -> list[int]:
 
 def _portal_ints(storage: Storage, numbers: CellNumbers, given: Portal | int, where: str) -> list[int]:
     portal = given if isinstance(given, Portal) else Portal(given)
-    other = int(at.EXTERIOR) if portal.other is None else numbers.behind_portal(portal.other, where)
-    if portal.side not in (0, 1):
-        raise WorldError(f"{where}, side", f"{portal.side} is neither 0 nor 1")
+    other = int(at.EXTERIOR) if portal.other is None else numbers.behind_portal(portal.other)
     if portal.polygon is not None:
         return [other, portal.side, storage.add_floats(_plane(portal.polygon, where))]
     if other < 0:
@@ -258,8 +248,6 @@ def _building_ints(
     if building.shape is not None:
         part = parts.add(storage.root_of(building.shape), building.pose, 1.0, where)
     portals = [
-        n
-        for i, portal in enumerate(building.portals)
-        for n in (numbers.behind_portal(portal.other, f"{where}, portal {i}"), portal.other_portal)
+        n for portal in building.portals for n in (numbers.behind_portal(portal.other), portal.other_portal)
     ]
     return [part, storage.add_ints(portals), len(building.portals)]

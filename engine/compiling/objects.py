@@ -35,7 +35,6 @@ _WEENIE_BITS: Final = {
     "pklite": WEENIE_PKLITE,
     "impenetrable": WEENIE_IMPENETRABLE,
 }
-_MAX_STATE: Final = 1 << 31
 
 
 class Parts:
@@ -99,10 +98,6 @@ def _scales(scales: Sequence[float], where: Sequence[str]) -> Array:
 
 
 def _object_ints(storage: Storage, parts: Parts, thing: Obstacle, where: str) -> list[int]:
-    if not 0 <= thing.state < _MAX_STATE:
-        raise WorldError(f"{where}, state", f"{thing.state} is not a set of PhysicsState bits")
-    if not 0 <= thing.id <= 0xFFFF_FFFF:
-        raise WorldError(f"{where}, id", f"{thing.id} is not a 32-bit number")
     return [thing.id, thing.state, _weenie_bits(thing.weenie), *_family(storage, parts, thing, where)]
 
 

@@ -17,8 +17,6 @@ if TYPE_CHECKING:
     from engine.compiling.storage import Storage
     from engine.kernels.types import Ints
 
-_LARGEST_ID = 0xFFFF_FFFF
-
 
 def write_restrictions(
     storage: Storage, numbers: CellNumbers, restrictions: Mapping[int, Restriction]
@@ -34,14 +32,11 @@ def write_restrictions(
         if index == at.NO_CELL:
             raise WorldError(f"restrictions, {cell_id:#010x}", "is not a cell of the world")
         if id(restriction) not in written:
-            written[id(restriction)] = storage.add_ints(_record(restriction, cell_id))
+            written[id(restriction)] = storage.add_ints(_record(restriction))
         found[index] = written[id(restriction)]
     return found
 
 
-def _record(restriction: Restriction, cell_id: int) -> list[int]:
+def _record(restriction: Restriction) -> list[int]:
     ids = sorted(restriction.admits)
-    for thing in ids:
-        if not 0 < thing <= _LARGEST_ID:
-            raise WorldError(f"restrictions, {cell_id:#010x}, admits", f"{thing} is not an object id")
     return [int(restriction.is_known), len(ids), *ids]

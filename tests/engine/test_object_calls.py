@@ -242,10 +242,10 @@ WRONG: list[tuple[ObjectCall, str]] = [
     (ObjectCall(move(mover()), object_index=-1), "call 0, object: -1 does not exist (1 objects)"),
     (ObjectCall(move(mover()), Target.FIRST_SHAPE), "call 0, object: 0 has no shape to call"),
     (ObjectCall(replace(move(mover()), start=None)), "call 0, start: a collision call comes from somewhere"),
-    (ObjectCall(move(mover(id=-1))), "call 0, mover, id: -1 is not a 32-bit number"),
+    (ObjectCall(move(mover(id=-1))), "call 0, move, mover, id: -1 is not a 32-bit number"),
     (
         ObjectCall(move(mover(target_id=1 << 32))),
-        "call 0, mover, target id: 4294967296 is not a 32-bit number",
+        "call 0, move, mover, target id: 4294967296 is not a 32-bit number",
     ),
     (
         ObjectCall(move(mover()), path=PathState(walk_interp=np.nan)),

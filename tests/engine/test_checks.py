@@ -1,0 +1,251 @@
+"""Input of the wrong kind: the engine answers, or says where it is wrong, whatever a field is."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import fields, replace
+from functools import partial
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+import pytest
+
+from engine import (
+    Body,
+    Building,
+    BuildingPortal,
+    Cell,
+    CollisionCall,
+    ContactPlane,
+    EngineError,
+    InputError,
+    LandBlock,
+    Leaf,
+    Move,
+    Mover,
+    Node,
+    ObjectCall,
+    Obstacle,
+    Part,
+    PathState,
+    Portal,
+    Pose,
+    QueryError,
+    Restriction,
+    Seed,
+    Shape,
+    Weenie,
+    World,
+    find_collisions,
+    find_object_collisions,
+    resolve,
+    resolve_many,
+    step,
+)
+from engine.checks import finite, flag, keyed, number, optional, record, several, told, whole
+
+if TYPE_CHECKING:
+    from collections.abc import Callable
+
+CELL = 0xA9B40100
+HERE, THERE = Pose(CELL, (50.0, 50.0, 0.0)), Pose(CELL, (50.2, 50.0, 0.0))
+LEAF = Leaf((0.0, 0.0, 0.0, 10.0), (0,))
+CORNERS = [(-5.0, -5.0, 0.0), (5.0, -5.0, 0.0), (0.0, 5.0, 0.0)]
+FLOOR = Shape(CORNERS, [(0, 1, 2)], LEAF)
+SOLID = Obstacle(HERE, state=0x10001, parts=[Part(FLOOR)])
+MOVER = Mover([(0.0, 0.0, 0.5, 0.5)], step_down_height=1.5)
+PLANE = ContactPlane((0.0, 0.0, 1.0, 0.0), CELL)
+MOVE = Move(MOVER, THERE, CELL, HERE, Seed(PLANE, PLANE, (1.0, 0.0, 0.0)))
+
+
+def deep() -> list[Any]:
+    """Return a list in a list in a list, deeper than Python follows."""
+    nested: list[Any] = []
+    for _ in range(5000):
+        nested = [nested]
+    return nested
+
+
+def cyclic() -> list[Any]:
+    """Return a list that holds itself."""
+    endless: list[Any] = []
+    endless.append(endless)
+    return endless
+
+
+HOSTILE = {
+    "nothing": None,
+    "text": "x",
+    "bytes": b"\xff",
+    "nan": math.nan,
+    "infinite": math.inf,
+    "negative": -1,
+    "fraction": 1.5,
+    "huge": 1 << 70,
+    "beyond float32": 1e300,
+    "empty": [],
+    "ragged": [[1, 2], [3]],
+    "not finite": [math.nan] * 3,
+    "mapping": {},
+    "object": object(),
+    "nested": deep(),
+    "cyclic": cyclic(),
+}
+
+
+def world(*cells: Cell, **more: Any) -> World:
+    """Return a world of one cell, unless others are given."""
+    return World(cells or [Cell(CELL, HERE, FLOOR)], **more)
+
+
+def floored(tree: Any) -> Any:
+    """Compile the floor with another tree."""
+    return world(Cell(CELL, HERE, Shape(CORNERS, [(0, 1, 2)], tree)))
+
+
+def with_object(thing: Any) -> Any:
+    """Compile a cell with an object in it, and one that has to be registered."""
+    return world(Cell(CELL, HERE, FLOOR, [thing])), world(objects=[thing])
+
+
+def with_building(building: Any) -> Any:
+    """Compile a building on a block."""
+    return World(landblocks=[LandBlock(0xA9B4, [0.0] * 81)], buildings=[building])
+
+
+PUBLIC: list[tuple[Any, Callable[[Any], Any]]] = [
+    (HERE, lambda pose: (world(Cell(CELL, pose, FLOOR)), resolve(world(), replace(MOVE, start=pose)))),
+    (
+        Cell(CELL, HERE, FLOOR, [SOLID], [CELL + 1], [CELL]),
+        lambda cell: world(cell, Cell(CELL + 1, HERE, FLOOR)),
+    ),
+    (Portal(CELL + 1, CORNERS), lambda portal: world(Cell(CELL, HERE, FLOOR, portals=[portal]))),
+    (LandBlock(0xA9B4, [0.0] * 81, [0] * 81), lambda block: World(landblocks=[block])),
+    (Building(HERE, FLOOR, [BuildingPortal(CELL)]), with_building),
+    (BuildingPortal(CELL), lambda portal: with_building(Building(HERE, FLOOR, [portal]))),
+    (SOLID, with_object),
+    (Obstacle(HERE, spheres=[(0.0, 0.0, 0.0, 1.0)]), with_object),
+    (Part(FLOOR), lambda part: with_object(replace(SOLID, parts=[part]))),
+    (Weenie(), lambda weenie: with_object(replace(SOLID, weenie=weenie))),
+    (Restriction([1]), lambda restriction: world(restrictions={CELL: restriction})),
+    (LEAF, floored),
+    (Node((0.0, 0.0, 1.0, 0.0), LEAF.sphere, LEAF, LEAF), floored),
+    (MOVER, lambda mover: resolve(world(), replace(MOVE, mover=mover))),
+    (PLANE, lambda plane: resolve(world(), replace(MOVE, seed=Seed(plane, plane)))),
+    (MOVE.seed, lambda seed: resolve(world(), replace(MOVE, seed=seed))),
+    (MOVE, lambda move: resolve(world(), move)),
+    (CollisionCall(MOVE), lambda call: find_collisions(world(), call)),
+    (ObjectCall(MOVE), lambda call: find_object_collisions(world(Cell(CELL, HERE, FLOOR, [SOLID])), call)),
+    (PathState(), lambda path: find_collisions(world(), CollisionCall(MOVE, path=path))),
+    (Body(HERE, MOVER.spheres, velocity=(0.0, 0.0, -3.0)), lambda body: step(world(), body, 0.1)),
+]
+
+
+def refusal(ask: Callable[[], Any]) -> InputError | None:
+    """Ask, and return the error with which the input is refused; none if it is answered."""
+    try:
+        ask()
+    except InputError as error:
+        return error
+    except EngineError:
+        return None
+    return None
+
+
+@pytest.mark.parametrize(("given", "ask"), PUBLIC, ids=lambda value: type(value).__name__)
+@pytest.mark.filterwarnings("ignore:overflow encountered:RuntimeWarning")
+def test_a_field_of_the_wrong_kind(given: Any, ask: Callable[[Any], Any]) -> None:
+    """Each field in turn is something else: either that is fine, or the error has a place and words."""
+    ask(given)
+    refused = set()
+    for field in fields(given):
+        for kind, value in HOSTILE.items():
+            error = refusal(partial(ask, replace(given, **{field.name: value})))
+            if error is not None:
+                refused.add(kind)
+                assert error.where, (field.name, kind)
+                assert 0 < len(error.problem) < 300, (field.name, kind)
+    assert {"text", "object", "mapping"} <= refused
+
+
+@pytest.mark.parametrize("name", ["cells", "landblocks", "buildings", "shadows", "objects", "restrictions"])
+def test_a_world_of_the_wrong_kind(name: str) -> None:
+    """What is no sequence of cells, or a sequence of something else, is refused by name."""
+    for value in HOSTILE.values():
+        for given in (value, [value], {CELL: value}, {-1: value}, {"x": value}):
+            error = refusal(partial(World, **{name: given}))
+            if error is None:
+                assert given is None or not given
+            else:
+                assert error.where.startswith(name)
+
+
+def test_queries_of_the_wrong_kind() -> None:
+    """A batch of something else, a tree of something else, and threads that are no number."""
+    for value in HOSTILE.values():
+        with pytest.raises(InputError):
+            resolve(world(), value)
+        with pytest.raises(InputError):
+            floored(value)
+        if value != HOSTILE["huge"]:  # more threads than queries are as many
+            with pytest.raises(QueryError, match="threads: "):
+                resolve_many(world(), [MOVE], threads=value)
+    assert len(resolve_many(world(), [])) == 0
+
+
+@pytest.mark.parametrize(
+    ("value", "said"),
+    [
+        (1 << 32, "4294967296 is not a 32-bit number"),
+        (-1, "-1 is not a 32-bit number"),
+        (2.0, "2.0 where a whole number is needed"),
+        ("9" * 99, "a value of type str where a whole number is needed"),
+        ([], "a value of type list where a whole number is needed"),
+    ],
+)
+def test_whole_numbers(value: Any, said: str) -> None:
+    """Ids and bit fields have 32 bits; what a message shows is never long."""
+    whole()(0xFFFF_FFFF, "here", QueryError)
+    whole()(np.uint32(7), "here", QueryError)
+    with pytest.raises(QueryError) as caught:
+        whole()(value, "here", QueryError)
+    assert str(caught.value) == f"here: {said}"
+
+
+def test_limits_belong_to_a_range() -> None:
+    """Both ends are inside."""
+    for value in (1, 3):
+        whole(1, 3)(value, "here", QueryError)
+    with pytest.raises(QueryError, match="here: 4 is not between 1 and 3"):
+        whole(1, 3)(4, "here", QueryError)
+
+
+def test_flags_and_numbers() -> None:
+    """0 and 1 are truth values, 2 is none; a finite number may be beyond float32."""
+    for value in (True, 0, np.bool_(False)):
+        flag(value, "here", QueryError)
+    with pytest.raises(QueryError, match="here: 2 where true or false is needed"):
+        flag(2, "here", QueryError)
+    finite(1e300, "here", QueryError)
+    number(math.nan, "here", QueryError)
+    with pytest.raises(QueryError, match="here: nan where a finite number is needed"):
+        finite(math.nan, "here", QueryError)
+
+
+def test_places_lead_to_the_field() -> None:
+    """Items, keys and fields are named on the way."""
+    check = keyed(several(record(Pose, cell=optional(whole()))))
+    check({1: [Pose(2)]}, "top", QueryError)
+    with pytest.raises(QueryError) as caught:
+        check({1: [Pose(2), Pose(-3)]}, "top", QueryError)
+    assert caught.value.where == "top, 0x00000001[1], cell"
+
+
+def test_what_is_told_is_short() -> None:
+    """Deep and endless values are told by their type."""
+    assert [told(value) for value in (None, 1.5, "a", deep())] == [
+        "None",
+        "1.5",
+        "'a'",
+        "a value of type list",
+    ]
