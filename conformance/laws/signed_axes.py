@@ -126,7 +126,7 @@ def quarter_turn(query: Query, ask: Ask) -> str:
     """Quarter turn: x becomes y and y becomes -x, in the scene, the mover and the move.
 
     Condition: all faces look along the axes, poses and movers are not turned, and what is remembered looks
-    along an axis.
+    along an axis. A mover comes from somewhere: room for one that is put down is looked for in compass order.
     """
     return _taken(QUARTER_TURN, query, ask)
 
@@ -135,7 +135,7 @@ def half_turn(query: Query, ask: Ask) -> str:
     """Half turn: x and y are negated.
 
     Condition: all faces look along the axes, poses and movers are not turned, and what is remembered looks
-    along an axis.
+    along an axis. A mover comes from somewhere: room for one that is put down is looked for in compass order.
     """
     return _taken(HALF_TURN, query, ask)
 
@@ -144,7 +144,7 @@ def mirror(query: Query, ask: Ask) -> str:
     """Mirror: x is negated, and the corners of every polygon are listed the other way round.
 
     Condition: all faces look along the axes, poses and movers are not turned, and what is remembered looks
-    along an axis.
+    along an axis. A mover comes from somewhere: room for one that is put down is looked for in compass order.
     """
     return _taken(MIRROR, query, ask)
 

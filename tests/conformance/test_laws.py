@@ -18,6 +18,7 @@ from conformance.laws.law import BrokenLawError, LawRun, hold
 from conformance.laws.renaming import SHIFT
 from conformance.laws.signed_axes import HALF_TURN, MIRROR, QUARTER_TURN
 from conformance.laws.splitting import RADIUS, flight
+from conformance.laws.square import square_transitions
 from conformance.profiles import CI, register
 from conformance.query import Errored, Result, Skipped
 from conformance.scenes.block_shifts import shifted_id
@@ -138,6 +139,13 @@ def profile() -> Iterator[None]:
     settings.load_profile(before)
 
 
+def fields_of(query: Query) -> Fields:
+    """Return retail's answer to a query that has one."""
+    outcome = OracleCandidate().answer(query)
+    assert isinstance(outcome, Result)
+    return outcome.fields
+
+
 @pytest.mark.parametrize("name", LAWS)
 def test_retail_keeps_the_law(name: str) -> None:
     """The oracle's answers belong together as the law says."""
@@ -163,6 +171,18 @@ def test_the_law_can_fail(name: str) -> None:
 
     with pytest.raises(BrokenLawError):
         draw_queries(law.queries, MOST_DRAWS, once)
+
+
+def test_a_placement_has_a_north() -> None:
+    """Room is looked for in compass order: retail itself does not keep the mirror's law there."""
+
+    def once(query: Query, _: int) -> None:
+        placement = replace(query, inputs={**query.inputs, "from": None})
+        if broken := LAWS["mirror"].breach(placement, fields_of):
+            raise BrokenLawError(broken)
+
+    with pytest.raises(BrokenLawError):
+        draw_queries(square_transitions(), MOST_DRAWS, once)
 
 
 def test_every_law_says_when_it_holds() -> None:
