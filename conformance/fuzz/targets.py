@@ -29,12 +29,15 @@ class Target:
         Where its ``run`` is: a function of bytes that says whether they were accepted.
     watched : str
         Package whose branches guide the fuzzer; kernels, which are compiled, are not among them.
+    is_text : bool
+        Whether inputs are text, and are mostly changed as such (`conformance.fuzz.text_mutations`).
     """
 
     name: str
     what: str
     module: str
     watched: str
+    is_text: bool
 
     @property
     def corpus(self) -> Path:
@@ -52,19 +55,25 @@ TARGETS: Final[Mapping[str, Target]] = MappingProxyType(
         target.name: target
         for target in (
             Target(
-                "yaml", "files of cases, from bytes to queries", "conformance.fuzz.yaml_target", "conformance"
+                "yaml",
+                "files of cases, from bytes to queries",
+                "conformance.fuzz.yaml_target",
+                "conformance",
+                is_text=True,
             ),
             Target(
                 "vectors",
                 "vector files with their shared geometry and worlds",
                 "conformance.fuzz.vector_target",
                 "conformance",
+                is_text=True,
             ),
             Target(
                 "world",
                 "the engine's world compiler, and a move in what it accepts",
                 "conformance.fuzz.world_target",
                 "engine",
+                is_text=False,
             ),
         )
     }

@@ -18,6 +18,7 @@ import atheris
 
 from conformance.fuzz.tally import Tally
 from conformance.fuzz.targets import TARGETS
+from conformance.fuzz.text_mutations import mutate
 
 REWORDED: Final = 64
 """Characters of the longest text whose syntax error is also looked up with PyYAML's slow parser."""
@@ -39,8 +40,13 @@ def main() -> None:
     def once(data: bytes) -> None:
         tally.count(accepted=run(data))
 
-    atheris.Setup([sys.argv[0], *sys.argv[3:]], once)
+    changes = {"custom_mutator": _change_text} if target.is_text else {}
+    atheris.Setup([sys.argv[0], *sys.argv[3:]], once, **changes)
     atheris.Fuzz()
+
+
+def _change_text(data: bytes, limit: int, seed: int) -> bytes:
+    return mutate(data, limit, seed, atheris.Mutate)
 
 
 def _kernels() -> list[str]:

@@ -2,16 +2,20 @@
 
 from __future__ import annotations
 
+import re
 import sys
 from typing import TYPE_CHECKING
 
 import pytest
+from hypothesis import given
+from hypothesis import strategies as st
 
 from conformance.cli import main
 from conformance.fuzz.byte_source import ByteSource
 from conformance.fuzz.finding import FindingError, check_place
 from conformance.fuzz.session import FuzzerMissingError, check_fuzzer, fuzz
 from conformance.fuzz.targets import TARGETS
+from conformance.fuzz.text_mutations import mutate
 from conformance.source import Location, Problem
 
 if TYPE_CHECKING:
@@ -69,6 +73,23 @@ def test_an_error_outside_the_file_is_a_finding() -> None:
         check_place(Problem(Location("f", 1, 1), "", "", "b"), b"a: 1\n")
 
 
+@given(text=st.text(min_size=1), seed=st.integers(0, 1 << 32), limit=st.integers(1, 64))
+def test_changed_text_is_text_within_its_limit(text: str, seed: int, limit: int) -> None:
+    """The same seed makes the same change, and none is longer than allowed."""
+    first, again = (mutate(text.encode(), limit, seed, lambda data, most: data[:most]) for _ in range(2))
+    assert first == again
+    assert len(first) <= limit
+
+
+def test_numbers_words_and_lines_are_changed() -> None:
+    """Every kind of change is met, and what is no text is left to the fuzzer."""
+    made = {mutate(b"a: 17\nbc: x", 99, seed, lambda *_: b"bytes") for seed in range(3000)}
+    assert b"bytes" in made
+    assert {b"a: 1e39\nbc: x", b"a: 17\na: 17\nbc: x", b"bc: x\na: 17", b"a: 17\nbc: bc"} <= made
+    assert any(re.fullmatch(rb"a: [2-9]7\nbc: x", text) for text in made)
+    assert mutate(b"\xff", 99, 1, lambda *_: b"bytes") == b"bytes"
+
+
 def test_bytes_end_in_zeros() -> None:
     """Behind the last byte there are as many zeros as are asked for."""
     source = ByteSource(b"\x61")
@@ -82,7 +103,8 @@ def test_the_fuzzer_runs(name: str, tmp_path: Path) -> None:
         check_fuzzer()
     except FuzzerMissingError as error:
         pytest.skip(str(error))
-    new, said = tmp_path / "new", []
+    new = tmp_path / "new"
+    said: list[str] = []
     new.mkdir()
     folders = [new, TARGETS[name].corpus]
     report = fuzz(TARGETS[name], folders, runs=RUNS[name], seed=1, findings=tmp_path, say=said.append)

@@ -73,7 +73,7 @@ def cyclic() -> list[Any]:
     return endless
 
 
-HOSTILE = {
+HOSTILE: dict[str, Any] = {
     "nothing": None,
     "text": "x",
     "bytes": b"\xff",
@@ -172,7 +172,8 @@ def test_a_field_of_the_wrong_kind(given: Any, ask: Callable[[Any], Any]) -> Non
 def test_a_world_of_the_wrong_kind(name: str) -> None:
     """What is no sequence of cells, or a sequence of something else, is refused by name."""
     for value in HOSTILE.values():
-        for given in (value, [value], {CELL: value}, {-1: value}, {"x": value}):
+        others: list[Any] = [value, [value], {CELL: value}, {-1: value}, {"x": value}]
+        for given in others:
             error = refusal(partial(World, **{name: given}))
             if error is None:
                 assert given is None or not given
