@@ -141,7 +141,7 @@ def _equivalents() -> tuple[Entry, ...]:
 
 def _judged(work: Work, plans: Sequence[Plan]) -> list[Finding]:
     from conformance.console import Progress
-    from conformance.mutation.journal import JournalError
+    from conformance.journal import JournalError
     from conformance.mutation.run import WorkerLostError, judge
 
     kept = f"what was found is in {work.journal}: --resume goes on"

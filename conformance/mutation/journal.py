@@ -3,26 +3,22 @@
 from __future__ import annotations
 
 import hashlib
-import json
 from typing import TYPE_CHECKING, Any, Final
 
+from conformance.journal import JournalError, JournalWriter, read_journal
 from conformance.mutation.trial import Finding, Verdict
 
 if TYPE_CHECKING:
-    from collections.abc import Iterable, Mapping, Sequence
+    from collections.abc import Iterable, Iterator, Mapping, Sequence
     from pathlib import Path
     from types import TracebackType
-    from typing import Self, TextIO
+    from typing import Self
 
     from conformance.mutation.asking import Question
     from conformance.mutation.mutant import Key, Mutant
 
 _SUITE: Final = "suite"
 _DIGEST_DIGITS: Final = 16
-
-
-class JournalError(Exception):
-    """A file that is to be gone on with is not a journal; says which line."""
 
 
 class Journal:
@@ -52,14 +48,14 @@ class Journal:
         lines = list(_read(path)) if resume and path.exists() else []
         self._is_current = bool(lines) and lines[0].get(_SUITE) == digest
         self._records = {_key(line): line for line in lines[1:]}
-        self._file: TextIO | None = None
+        self._writer: JournalWriter | None = None
 
     def __enter__(self) -> Self:
-        self.path.parent.mkdir(parents=True, exist_ok=True)
-        self._file = self.path.open("w", encoding="utf-8", newline="\n")
-        self._write({_SUITE: self._digest})
-        for record in self._records.values():
-            self._write(record if self._is_current else {**record, "verdict": None})
+        self._writer = JournalWriter(self.path, anew=not self._is_current)
+        if not self._is_current:
+            self._write({_SUITE: self._digest})
+            for record in self._records.values():
+                self._write({**record, "verdict": None})
         return self
 
     def __exit__(
@@ -68,8 +64,8 @@ class Journal:
         error: BaseException | None,
         traceback: TracebackType | None,
     ) -> None:
-        if self._file is not None:
-            self._file.close()
+        if self._writer is not None:
+            self._writer.close()
 
     def finding(self, mutant: Mutant) -> Finding | None:
         """Return what is known of a mutant, if it was found out with the same oracle and questions."""
@@ -97,10 +93,9 @@ class Journal:
         )
 
     def _write(self, record: Mapping[str, Any]) -> None:
-        if self._file is None:
+        if self._writer is None:
             raise ValueError("the journal is not open: use it in a with block")
-        self._file.write(json.dumps(record, ensure_ascii=False) + "\n")
-        self._file.flush()
+        self._writer.write(record)
 
 
 def digest_of(sources: Mapping[str, str], questions: Sequence[Question]) -> str:
@@ -121,20 +116,13 @@ def _texts(sources: Mapping[str, str], questions: Sequence[Question]) -> Iterabl
         yield from (question.name, query.op, repr(query.inputs), repr(geometries))
 
 
-def _read(path: Path) -> Iterable[dict[str, Any]]:
-    for number, line in enumerate(path.read_text(encoding="utf-8").splitlines(), start=1):
-        try:
-            record = json.loads(line)
-            wrong = "" if _is_known(record) else "neither a digest nor a finding"
-        except ValueError as error:
-            wrong = f"no JSON: {error}"
-        if wrong:
-            raise JournalError(f"{path}:{number}: found {wrong}, expected the journal of a run of mutants")
+def _read(path: Path) -> Iterator[dict[str, Any]]:
+    for number, record in read_journal(path):
+        if not (_SUITE in record or _is_finding(record)):
+            raise JournalError(
+                f"{path}:{number}: found neither a digest nor a finding, expected a journal of mutants"
+            )
         yield record
-
-
-def _is_known(record: Any) -> bool:
-    return isinstance(record, dict) and (_SUITE in record or _is_finding(record))
 
 
 def _is_finding(record: dict[str, Any]) -> bool:

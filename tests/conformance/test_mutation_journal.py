@@ -6,8 +6,9 @@ from typing import TYPE_CHECKING
 
 import pytest
 
+from conformance.journal import JournalError
 from conformance.mutation.asking import Question
-from conformance.mutation.journal import Journal, JournalError, digest_of
+from conformance.mutation.journal import Journal, digest_of
 from conformance.mutation.mutant import Mutant, Operator
 from conformance.mutation.trial import Finding, Verdict
 from conformance.query import Query
@@ -51,11 +52,20 @@ def test_without_resume_nothing_is_known(path: Path) -> None:
     assert path.read_text(encoding="utf-8") == '{"suite": "old"}\n'
 
 
+def test_a_line_without_its_end_is_made_again(path: Path) -> None:
+    """What a run was writing when it was killed does not keep the next one from going on."""
+    with path.open("a", encoding="utf-8") as file:
+        file.write('{"mutant": ["a.py"')
+    with Journal(path, "old", resume=True) as journal:
+        assert journal.finding(MUTANT) == FOUND
+    assert len(path.read_text(encoding="utf-8").splitlines()) == 2
+
+
 @pytest.mark.parametrize("line", ["no json", "[1]", '{"id": "a-case"}', '{"mutant": ["f"], "verdict": null}'])
 def test_another_file_is_refused(path: Path, line: str) -> None:
     """The error says which line it is."""
     path.write_text(f'{{"suite": "old"}}\n{line}\n', encoding="utf-8")
-    with pytest.raises(JournalError, match=r"mutants\.jsonl:2: found .*, expected the journal"):
+    with pytest.raises(JournalError, match=r"mutants\.jsonl:2:"):
         Journal(path, "old", resume=True)
 
 
