@@ -28,6 +28,7 @@ from conformance.commands import (
     serve,
     show,
     smoke,
+    soak,
     stress,
     trace,
     trace_log,
@@ -62,6 +63,7 @@ _COMMANDS: Final[dict[str, ModuleType]] = {
     "errors": errors,
     "fuzz": fuzz,
     "stress": stress,
+    "soak": soak,
     "serve": serve,
     "smoke": smoke,
 }

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 import sys
 import time
 from typing import TYPE_CHECKING, Final, Self
@@ -23,12 +24,22 @@ def make_console(*, stderr: bool = False) -> Console:
 
 
 class Progress:
-    """A line on the terminal's stderr that says what a long run is doing; nothing anywhere else."""
+    """A line on the terminal's stderr that says what a long run is doing.
 
-    def __init__(self, console: Console | None = None) -> None:
+    Parameters
+    ----------
+    console : Console or None
+        Where to say it; None: stderr.
+    plain_seconds : float
+        Where there is no terminal, a line is printed as often as this; by default never.
+    """
+
+    def __init__(self, console: Console | None = None, *, plain_seconds: float = math.inf) -> None:
         self._console = console or make_console(stderr=True)
         self._started = time.monotonic()
         self._status: Status | None = None
+        self._plain_seconds = plain_seconds
+        self._printed = self._started
 
     def __enter__(self) -> Self:
         return self
@@ -44,7 +55,13 @@ class Progress:
 
     def say(self, text: str) -> None:
         """Show `text` in place of what was shown before, once the run has become long."""
-        if not self._console.is_terminal or time.monotonic() - self._started < _SILENT_SECONDS:
+        now = time.monotonic()
+        if not self._console.is_terminal:
+            if now - self._printed >= self._plain_seconds:
+                self._printed = now
+                self._console.print(text)
+            return
+        if now - self._started < _SILENT_SECONDS:
             return
         if self._status is None:
             self._status = self._console.status(text)

@@ -103,26 +103,39 @@ def write_found(
     """
     document = found_document(query, differences, candidate=candidate, provenance=provenance)
     path = directory / f"{document['id']}.yaml"
-    text = yaml.safe_dump(
-        document, sort_keys=False, default_flow_style=None, width=_WIDTH, allow_unicode=True
-    )
-    write_text(path, text)
+    write_text(path, found_yaml(document))
     return path
 
 
+def found_yaml(document: Mapping[str, Any]) -> str:
+    """Return a found case as the text of its file."""
+    text: str = yaml.safe_dump(
+        document, sort_keys=False, default_flow_style=None, width=_WIDTH, allow_unicode=True
+    )
+    return text
+
+
 def found_document(
-    query: Query, differences: Sequence[Difference], *, candidate: str, provenance: str
+    query: Query, differences: Sequence[Difference], *, candidate: str, provenance: str, said: str = ""
 ) -> dict[str, Any]:
-    """Return the case as plain data; its expected answer is left to the oracle."""
+    """Return the case as plain data; its expected answer is left to the oracle.
+
+    Parameters
+    ----------
+    query, differences, candidate, provenance
+        As of `write_found`.
+    said : str
+        What went wrong, in one line; empty: the first difference.
+    """
     inputs = short_inputs(query.inputs)
     geometries = [{**short_geometry(geometry), "name": name} for name, geometry in query.geometries.items()]
     content = json.dumps([query.op, inputs, geometries], sort_keys=True).encode("utf-8")
     digest = hashlib.sha256(content).hexdigest()[:_DIGEST_DIGITS]
-    what = summary_line(differences[0], candidate) if differences else f"{candidate} failed to answer"
+    first = summary_line(differences[0], candidate) if differences else f"{candidate} failed to answer"
     return {
         "id": f"found-{digest}",
         "title": f"{query.op.replace('_', ' ')}: found at random",
-        "why": f"Found by {provenance}, candidate {candidate}. First difference: {what}. "
+        "why": f"Found by {provenance}, candidate {candidate}. First difference: {said or first}. "
         f"Scene: {scene_line(query)}.",
         "retail": [retail_function(query.op)],
         "tags": ["found"],

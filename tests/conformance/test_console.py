@@ -78,3 +78,13 @@ def test_unprintable_characters(monkeypatch: pytest.MonkeyPatch) -> None:
     stream.write("48.38°")
     stream.flush()
     assert stream.buffer.getvalue() == b"48.38?"  # type: ignore[attr-defined]
+
+
+def test_progress_without_a_terminal(monkeypatch: pytest.MonkeyPatch) -> None:
+    """A run of hours may print a line now and then where nothing can be replaced."""
+    output = io.StringIO()
+    clock(monkeypatch, 0.0, 30.0, 60.0, 90.0, 120.0)
+    with Progress(Console(file=output), plain_seconds=60.0) as progress:
+        for shard in range(4):
+            progress.say(f"shard {shard}")
+    assert output.getvalue() == "shard 1\nshard 3\n"
