@@ -22,6 +22,7 @@ EXAMPLES: Final = (
     "conformance soak --queries 1e5 --jobs 2",
     'conformance soak --queries 1e7 --jobs 8 --candidate "cmd:./my-engine" -o soak-1',
     'conformance soak --queries 1e7 --jobs 8 --candidate "cmd:./my-engine" -o soak-1 --resume',
+    "conformance soak --queries 1e7 --scheduler tcp://10.0.0.1:8786",
     "conformance soak --queries 1e9 --minutes 30 --seed 7 --family worlds -o nightly",
 )
 _METHOD: Final = """\
@@ -33,7 +34,7 @@ A failure of a new kind (operation, first output that differs, in what way) is s
 FOLDER/found as a case; others of its kind are counted. Ctrl-C keeps what there is.
 
 Exit codes: 0 all that was compared agrees, 1 something differs, 2 usage, 3 the candidate is broken, 4 nothing
-was compared, 5 a result could not be written, 130 Ctrl-C.
+was compared, 5 a result could not be written, 130 Ctrl-C, or the scheduler is gone.
 """
 _SHARD_SIZE: Final = 1000
 """Queries: some seconds of work, which is what Ctrl-C loses."""
@@ -82,7 +83,12 @@ def configure(parser: argparse.ArgumentParser) -> None:
     )
     options.add_argument("--resume", action="store_true", help="go on with what the journal holds")
     workers = parser.add_argument_group("who asks")
-    workers.add_argument("--jobs", type=_count, default=1, metavar="N", help="processes (default: 1)")
+    workers.add_argument("--jobs", type=_count, metavar="N", help="processes (default: 1)")
+    workers.add_argument(
+        "--scheduler",
+        metavar="tcp://HOST:PORT",
+        help="of a Dask cluster, whose workers ask instead (extra `cluster`)",
+    )
     workers.add_argument(
         "--minutes", type=_minutes, metavar="M", help="begin no further shard after this time"
     )
@@ -97,8 +103,9 @@ def run(args: argparse.Namespace) -> int:
 
     identity = _identity(args)
     plan, journal = _plan(args, identity), _journal(args, identity)
+    crew = _crew(args)
     with journal, Progress(plain_seconds=_PLAIN_SECONDS) as progress:
-        campaign = Campaign(plan, _crew(args), journal, progress.say)
+        campaign = Campaign(plan, crew, journal, progress.say)
         ending = _run(campaign)
     code = _exit_code(journal.tally, ending.code)
     console = make_console()
@@ -122,6 +129,7 @@ class _Ending(NamedTuple):
 def _run(campaign: Campaign) -> _Ending:
     """Run a campaign; whatever ends it early, what it has found so far is shown."""
     from conformance.soak.campaign import NoAnswersError, WorkerLostError
+    from conformance.soak.cluster import ClusterError
     from conformance.soak.shard import SilentCandidateError
     from conformance.soak.tally import UnlikeShardError
     from conformance.soak.workshop import OtherInstallationError
@@ -134,6 +142,8 @@ def _run(campaign: Campaign) -> _Ending:
         return _Ending(exit_codes.BROKEN, f"given up: {error}")
     except OtherInstallationError as error:
         return _Ending(exit_codes.USAGE, str(error))
+    except ClusterError as error:
+        return _Ending(exit_codes.BROKEN_OFF, str(error))
     except OSError as error:
         return _Ending(exit_codes.CANNOT_WRITE, f"could not be written: {error}")
     return _Ending()
@@ -211,6 +221,14 @@ def _journal(args: argparse.Namespace, identity: Identity) -> SoakJournal:
 
 
 def _crew(args: argparse.Namespace) -> Crew:
+    from conformance.soak.cluster import Cluster, ClusterError
     from conformance.soak.crews import Alone, Processes
 
-    return Alone() if args.jobs == 1 else Processes(args.jobs)
+    if args.scheduler is None:
+        return Alone() if args.jobs in {None, 1} else Processes(args.jobs)
+    if args.jobs is not None:
+        raise UsageError("--jobs is about processes here: how many a cluster has, its workers say")
+    try:
+        return Cluster(args.scheduler)
+    except ClusterError as error:
+        raise UsageError(str(error)) from error

@@ -13,7 +13,7 @@ from conformance.soak import workshop
 from conformance.soak.pace import Pace
 from conformance.soak.records import Kept
 from conformance.soak.shrinking import UnusableCaseError
-from conformance.soak.workshop import Shard, Spot
+from conformance.soak.workshop import OtherInstallationError, Shard, Spot
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterator
@@ -29,8 +29,6 @@ if TYPE_CHECKING:
 
 MOST_KEPT: Final = 25
 """Kinds of failure that are shrunk and kept; of others only the numbers are."""
-_MOST_LOSSES: Final = 3
-"""How often a task may lose who works on it; then it is the task that ends them."""
 _POLL_SECONDS: Final = 0.5
 
 
@@ -117,7 +115,9 @@ class Campaign:
         WorkerLostError
             A task has ended whoever worked on it, again and again.
         OtherInstallationError
-            A worker has another suite.
+            A worker has another suite, or none.
+        ClusterError
+            The scheduler of other machines is gone.
         UnlikeShardError
             A shard was asked twice and came out differently.
         OSError
@@ -160,6 +160,8 @@ class Campaign:
             self._lose(task, error)
         except UnusableCaseError as error:
             self.notes.append(f"{task} could not be kept as a case: {error}")
+        except ImportError as error:
+            raise OtherInstallationError(f"a worker cannot do {task}: {error}") from error
         else:
             if isinstance(task, Spot):
                 self._keep(task, result)
@@ -168,8 +170,8 @@ class Campaign:
 
     def _lose(self, task: Task, error: BaseException) -> None:
         self._losses[task] += 1
-        if self._losses[task] >= _MOST_LOSSES:
-            raise WorkerLostError(f"{task} has ended {_MOST_LOSSES} workers in a row") from error
+        if self._losses[task] >= self._crew.chances:
+            raise WorkerLostError(f"{task} has ended who worked on it, {self._losses[task]} times") from error
         self._suspects.append(task)
 
     def _note(self, result: ShardResult) -> None:

@@ -21,6 +21,8 @@ class Crew(Protocol):
 
     lost: tuple[type[BaseException], ...]
     """What a task ends with if who worked on it is gone; it may be given to somebody else."""
+    chances: int
+    """How often a task may lose who works on it; then it is the task that ends them."""
 
     @property
     def places(self) -> int:
@@ -40,6 +42,7 @@ class Alone:
     """Runs each task at once, in this process."""
 
     lost: tuple[type[BaseException], ...] = ()
+    chances = 1
     places = 1
 
     def submit(self, task: Callable[P, T], /, *args: P.args, **kwargs: P.kwargs) -> Future[T]:
@@ -65,6 +68,7 @@ class Processes:
     """
 
     lost: tuple[type[BaseException], ...] = (BrokenProcessPool,)
+    chances = 3
 
     def __init__(self, jobs: int) -> None:
         self.places = 2 * jobs
