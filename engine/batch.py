@@ -137,7 +137,7 @@ def _run(job: int, world: World, rows: Rows, threads: int, plan: Plan) -> Rows:
         raise QueryError("rows", "not of engine.layout.QUERY_DTYPE")
     # Of rows that may only be read Numba would compile everything once more.
     queries = np.require(rows, requirements=("C", "W")).view(np.float64).reshape(len(rows), at.QUERY_SIZE)
-    results = np.zeros(len(rows), dtype=at.RESULT_DTYPE)
+    results = np.empty(len(rows), dtype=at.RESULT_DTYPE)
     answers = results.view(np.float64).reshape(len(rows), at.RESULT_SIZE)
     run = runnable(program.run)
 

@@ -12,6 +12,7 @@ from engine.checks import keyed, optional, several
 from engine.compiling.balls import write_plates
 from engine.compiling.bounds import write_bounds
 from engine.compiling.cells import CellNumbers, ObjectLists, write_buildings, write_cells
+from engine.compiling.clearance import write_clearances
 from engine.compiling.ids import id_table
 from engine.compiling.objects import Parts, write_objects
 from engine.compiling.restrictions import write_restrictions
@@ -118,6 +119,7 @@ class World:
         counts = len(lists.obstacles), len(buildings)
         header |= write_bounds(storage, header, cells, numbers.ids, listed, counts)
         header |= write_plates(storage, header)
+        header |= write_clearances(storage, header, cells)
         self.floats, self.ints = storage.finish(header)
         self._polygons: Final = storage.polygons
 

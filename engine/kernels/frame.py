@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from engine.constants import DEGREE, EPS, EPS5, RADIAN
-from engine.kernels.compile import entry, inlined, kernel
+from engine.kernels.compile import entry, inlined, inlined_entry, kernel
 from engine.kernels.rounding import f32
 from engine.kernels.vector import load, normalize_check_small, store
 from engine.layout import MATRIX, ORIGIN, QUATERNION
@@ -41,7 +41,7 @@ def frame_cache(a: Array, p: int) -> None:
     store(a, m + 6, f32(xz + wy), f32(yz - wx), f32((1.0 - xx) - yy))
 
 
-@kernel
+@inlined
 def frame_is_valid(a: Array, p: int) -> bool:
     """Say whether nothing is NaN and the quaternion is of unit length within EPS*5.
 
@@ -55,7 +55,7 @@ def frame_is_valid(a: Array, p: int) -> bool:
     return not (math.isnan(n) or abs(n - 1.0) > EPS5)
 
 
-@entry
+@inlined_entry
 def frame_set_rotate(a: Array, p: int, w: float, x: float, y: float, z: float) -> None:
     """Take a normalised rotation, or keep the old one if the new one is not valid.
 
@@ -162,7 +162,7 @@ def frame_is_equal(a: Array, p: int, b: Array, r: int) -> bool:
     return True
 
 
-@entry
+@inlined_entry
 def frame_interpolate_rotation(a: Array, p: int, b: Array, start: int, end: int, t: float) -> None:
     """Set the rotation between those of two frames, spherically where they differ enough.
 

@@ -54,6 +54,8 @@ from engine.layout import (
 if TYPE_CHECKING:
     from engine.kernels.types import Array, Vector
 
+_SECOND_SPHERE = LOCAL_SPHERE + SPHERE_SIZE
+
 
 @kernel
 def init_path(s: Array) -> None:
@@ -87,25 +89,51 @@ def cache_global_curr_center(s: Array) -> None:
         )
 
 
+@inlined
+def _placed(s: Array, sphere: int) -> Vector:
+    """Return a sphere's centre as the check position has it.
+
+    retail: SPHEREPATH::cache_global_sphere 0x0050C810, 04 4, form B
+    """
+    m, o = CHECK_POS + MATRIX, CHECK_POS + ORIGIN
+    x, y, z = load(s, sphere)
+    return (
+        f32(((x * s[m] + y * s[m + 3]) + z * s[m + 6]) + s[o]),
+        f32(((s[m + 7] * z + x * s[m + 1]) + s[m + 4] * y) + s[o + 1]),
+        f32(((s[m + 8] * z + s[m + 2] * x) + s[m + 5] * y) + s[o + 2]),
+    )
+
+
+@inlined
+def write_spheres(s: Array, out: Array, first: int) -> None:
+    """Write the spheres, as the check position has them, to ``out[first]`` and on; zeros for one that is not.
+
+    All is computed before any of it is written: compiled code cannot know that `out` is not the row.
+    """
+    x, y, z = _placed(s, LOCAL_SPHERE)
+    ux, uy, uz, ur = 0.0, 0.0, 0.0, 0.0
+    if s[NUM_SPHERE] > 1.0:
+        ux, uy, uz = _placed(s, _SECOND_SPHERE)
+        ur = s[_SECOND_SPHERE + RADIUS]
+    r = s[LOCAL_SPHERE + RADIUS]
+    store(out, first, x, y, z)
+    out[first + RADIUS] = r
+    store(out, first + SPHERE_SIZE, ux, uy, uz)
+    out[first + SPHERE_SIZE + RADIUS] = ur
+
+
 @kernel
 def cache_global_sphere(s: Array) -> None:
     """Put the spheres and the low point at the check position.
 
     retail: SPHEREPATH::cache_global_sphere 0x0050C810, 04 4, form B
     """
-    m, o = CHECK_POS + MATRIX, CHECK_POS + ORIGIN
     for i in range(int(s[NUM_SPHERE])):
-        local = LOCAL_SPHERE + SPHERE_SIZE * i
-        x, y, z = load(s, local)
-        at = GLOBAL_SPHERE + SPHERE_SIZE * i
+        local, at = LOCAL_SPHERE + SPHERE_SIZE * i, GLOBAL_SPHERE + SPHERE_SIZE * i
         s[at + RADIUS] = s[local + RADIUS]
-        store(
-            s,
-            at,
-            f32(((x * s[m] + y * s[m + 3]) + z * s[m + 6]) + s[o]),
-            f32(((s[m + 7] * z + x * s[m + 1]) + s[m + 4] * y) + s[o + 1]),
-            f32(((s[m + 8] * z + s[m + 2] * x) + s[m + 5] * y) + s[o + 2]),
-        )
+        x, y, z = _placed(s, local)
+        store(s, at, x, y, z)
+    m, o = CHECK_POS + MATRIX, CHECK_POS + ORIGIN
     x, y, z = load(s, LOCAL_LOW_POINT)
     store(
         s,

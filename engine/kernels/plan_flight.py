@@ -8,9 +8,12 @@ from typing import TYPE_CHECKING
 from engine.constants import BOUND_ROUNDING, BOUND_TILT, FLIGHT_STEPS
 from engine.kernels.broad import ball_beyond, bounds_of, fences_beyond, listed_ball, slack, tree_beyond
 from engine.kernels.cell_array import cell_id, ints_of, is_land, position_of
+from engine.kernels.clearance import known_clear
 from engine.kernels.compile import inlined, kernel
+from engine.kernels.indexing import unsigned
 from engine.kernels.plan import allows
 from engine.kernels.plan_portals import list_alone
+from engine.kernels.polygon import plane_distance
 from engine.kernels.probing import stays_in_contact
 from engine.kernels.vector import load
 from engine.layout import (
@@ -18,6 +21,9 @@ from engine.layout import (
     CELL_ARRAY_VALID,
     CELL_OBJECT_COUNT,
     CELL_OBJECTS,
+    CELL_PLANE_COUNT,
+    CELL_PLANES,
+    CELL_PORTAL_COUNT,
     CELL_TREE,
     CHECK_CELL,
     CONTACT_VALID,
@@ -27,10 +33,13 @@ from engine.layout import (
     LOCAL_SPHERE,
     MATRIX,
     NO_CELL,
+    NO_PORTALS,
     NO_TREE,
     NUM_SPHERE,
     ORIGIN,
     PLAN_FLIGHT,
+    PLANE_SIZE,
+    QUATERNION,
     RADIUS,
     SKIPPED_FLIGHT,
     SLIDING_VALID,
@@ -41,6 +50,7 @@ from engine.layout import (
 if TYPE_CHECKING:
     from engine.kernels.types import Array, Ints, Vector
 
+_SECOND_SPHERE = LOCAL_SPHERE + SPHERE_SIZE
 _TURNS = 3.0 * BOUND_TILT
 """How far, as a part of its distance from the origin, three rotations that are off unit length misplace a
 sphere: the begin's, the end's, and what is between them."""
@@ -63,29 +73,25 @@ def _turned(s: Array, p: int, x: float, y: float, z: float) -> Vector:
 
 
 @inlined
-def _sphere_reach(s: Array, sphere: int, x: float, y: float, z: float) -> float:
-    """Return how far a sphere of the mover reaches from x, y, z, a point that moves with it.
-
-    Between begin and end the rotation goes the shorter way about one axis, so that a centre is never
-    farther from where the begin's rotation puts it than where the end's does.
-
-    retail: Frame::interpolate_rotation 0x00535390, 01 4.8
-    """
-    lx, ly, lz = load(s, sphere)
-    ax, ay, az = _turned(s, CURR_POS, lx, ly, lz)
-    bx, by, bz = _turned(s, END_POS, lx, ly, lz)
-    turn = _length(bx - ax, by - ay, bz - az) + _TURNS * _length(lx, ly, lz)
-    return _length(ax - x, ay - y, az - z) + turn + s[sphere + RADIUS]
+def turns(s: Array, begin: int) -> bool:
+    """Say whether the row's `END_POS` has another rotation than the position at `begin`."""
+    q, r = begin + QUATERNION, END_POS + QUATERNION
+    return s[q] != s[r] or s[q + 1] != s[r + 1] or s[q + 2] != s[r + 2] or s[q + 3] != s[r + 3]
 
 
 @inlined
-def _middle(s: Array) -> Vector:
-    """Return the middle of the spheres' centres, from the mover's origin, as the begin's rotation has it."""
-    x, y, z = load(s, LOCAL_SPHERE)
-    if s[NUM_SPHERE] > 1.0:
-        ux, uy, uz = load(s, LOCAL_SPHERE + SPHERE_SIZE)
-        x, y, z = 0.5 * (x + ux), 0.5 * (y + uy), 0.5 * (z + uz)
-    return _turned(s, CURR_POS, x, y, z)
+def _turn(s: Array, begin: int, sphere: int) -> float:
+    """Return how far a rotation from the begin's to the end's takes a sphere's centre from its place.
+
+    It goes the shorter way about one axis, so that the centre is never farther from where the begin's
+    rotation puts it than where the end's does.
+
+    retail: Frame::interpolate_rotation 0x00535390, 01 4.8
+    """
+    x, y, z = load(s, sphere)
+    ax, ay, az = _turned(s, begin, x, y, z)
+    bx, by, bz = _turned(s, END_POS, x, y, z)
+    return _length(bx - ax, by - ay, bz - az)
 
 
 @kernel
@@ -102,9 +108,31 @@ def _objects_beyond(
     return True
 
 
+@inlined
+def _into_cell(wf: Array, p: int, x: float, y: float, z: float) -> Vector:
+    """Take a point of a cell's block into its frame; no rounding is retail's."""
+    m, o = unsigned(p + MATRIX), unsigned(p + ORIGIN)
+    x, y, z = x - wf[o], y - wf[o + 1], z - wf[o + 2]
+    return (
+        wf[m] * x + wf[m + 1] * y + wf[m + 2] * z,
+        wf[m + 3] * x + wf[m + 4] * y + wf[m + 5] * z,
+        wf[m + 6] * x + wf[m + 7] * y + wf[m + 8] * z,
+    )
+
+
+@inlined
+def _cell_rounding(wf: Array, p: int) -> float:
+    """Return by how much roundings on the way into a cell's frame may misplace a point, metres."""
+    o = unsigned(p + ORIGIN)
+    return BOUND_ROUNDING * (abs(wf[o]) + abs(wf[o + 1]) + abs(wf[o + 2]))
+
+
 @kernel
-def _cell_beyond(wf: Array, wi: Ints, s: Array, cell: int, x: float, y: float, z: float, r: float) -> bool:
-    """Say whether a ball of an environment cell's block touches nothing in the cell, and no portal."""
+def cell_beyond(wf: Array, wi: Ints, s: Array, cell: int, x: float, y: float, z: float, r: float) -> bool:
+    """Say whether a ball of an environment cell's block touches nothing in the cell, and no portal.
+
+    No portal of the cell (`fences_beyond`), no object, and no polygon of its tree.
+    """
     if not fences_beyond(wf, wi, cell, x, y, z, r):
         return False
     if not _objects_beyond(wf, wi, cell, cell_id(wf, wi, cell), x, y, z, r):
@@ -112,28 +140,69 @@ def _cell_beyond(wf: Array, wi: Ints, s: Array, cell: int, x: float, y: float, z
     root = wi[ints_of(wi, cell) + CELL_TREE]
     if root == NO_TREE:
         return True
-    m, o = position_of(wi, cell) + MATRIX, position_of(wi, cell) + ORIGIN
-    dx, dy, dz = x - wf[o], y - wf[o + 1], z - wf[o + 2]
-    lx = wf[m] * dx + wf[m + 1] * dy + wf[m + 2] * dz
-    ly = wf[m + 3] * dx + wf[m + 4] * dy + wf[m + 5] * dz
-    lz = wf[m + 6] * dx + wf[m + 7] * dy + wf[m + 8] * dz
-    return tree_beyond(
-        wf, wi, s, root, lx, ly, lz, r + BOUND_ROUNDING * (abs(wf[o]) + abs(wf[o + 1]) + abs(wf[o + 2]))
+    lx, ly, lz = _into_cell(wf, position_of(wi, cell), x, y, z)
+    far = r + _cell_rounding(wf, position_of(wi, cell))
+    return known_clear(wf, wi, cell, lx, ly, lz, far) or tree_beyond(wf, wi, s, root, lx, ly, lz, far)
+
+
+@inlined
+def cell_holds(wf: Array, wi: Ints, cell: int, x: float, y: float, z: float, r: float) -> bool:
+    """Say whether an environment cell contains all points of a ball of its block.
+
+    retail: CEnvCell::point_in_cell 0x0052C300, 09 4.1
+    """
+    ints = ints_of(wi, cell)
+    if wi[ints + CELL_PORTAL_COUNT] == NO_PORTALS:
+        return False
+    lx, ly, lz = _into_cell(wf, position_of(wi, cell), x, y, z)
+    far = r + _cell_rounding(wf, position_of(wi, cell))
+    first = wi[ints + CELL_PLANES]
+    for i in range(wi[ints + CELL_PLANE_COUNT]):
+        if not plane_distance(wf, first + PLANE_SIZE * i, lx, ly, lz) > far:
+            return False
+    return True
+
+
+@inlined
+def is_flown_through(wf: Array, wi: Ints, cell: int, home: float) -> bool:
+    """Say whether an environment cell that a position is in may be flown through unseen."""
+    return (
+        cell != NO_CELL
+        and not is_land(wi, cell)
+        and cell_id(wf, wi, cell) == home
+        and wf[bounds_of(wi, cell) + BOUNDS_PASSABLE] != 0.0
     )
 
 
 @inlined
-def _is_in_the_air(wf: Array, wi: Ints, s: Array, cell: int) -> bool:
-    """Say whether a mover neither touches nor looks for anything, and where it is can be flown through."""
-    return (
-        s[CONTACT_VALID] == 0.0
-        and s[SLIDING_VALID] == 0.0
-        and stays_in_contact(s)
-        and cell != NO_CELL
-        and not is_land(wi, cell)
-        and cell_id(wf, wi, cell) == s[CURR_POS]
-        and wf[bounds_of(wi, cell) + BOUNDS_PASSABLE] != 0.0
-    )
+def ball_about_way(
+    s: Array, begin: int, turning: bool, x: float, y: float, z: float
+) -> tuple[float, float, float, float]:
+    """Return centre and radius of a ball that the mover's spheres don't leave on a way by x, y, z.
+
+    `begin`: the position of the row where it begins; `turning`: whether it ends with another rotation, that
+    of the row's `END_POS`. The ball bounds the spheres wherever any of them is tested, in every rotation
+    between both, and has all slack that there is to be. In the mover's frame its centre is in the middle of
+    theirs.
+    """
+    lx, ly, lz = load(s, LOCAL_SPHERE)
+    r, spread, turn = s[LOCAL_SPHERE + RADIUS], 0.0, 0.0
+    if s[NUM_SPHERE] > 1.0:
+        ux, uy, uz = load(s, _SECOND_SPHERE)
+        ux, uy, uz = 0.5 * (ux - lx), 0.5 * (uy - ly), 0.5 * (uz - lz)
+        spread = _length(ux, uy, uz)
+        lx, ly, lz = lx + ux, ly + uy, lz + uz
+        r = max(r, s[_SECOND_SPHERE + RADIUS])
+        if turning:
+            turn = _turn(s, begin, _SECOND_SPHERE)
+    if turning:
+        turn = max(turn, _turn(s, begin, LOCAL_SPHERE))
+    turn += _TURNS * (spread + abs(lx) + abs(ly) + abs(lz))
+    mx, my, mz = _turned(s, begin, lx, ly, lz)
+    ox, oy, oz = load(s, begin + ORIGIN)
+    cx, cy, cz = ox + mx + 0.5 * x, oy + my + 0.5 * y, oz + mz + 0.5 * z
+    reach = (spread + r + turn + 0.5 * _length(x, y, z)) * (1.0 + BOUND_TILT)
+    return cx, cy, cz, reach + slack(cx, cy, cz) + BOUND_ROUNDING * (abs(x) + abs(y) + abs(z))
 
 
 @kernel
@@ -141,24 +210,21 @@ def flies_freely(wf: Array, wi: Ints, s: Array, x: float, y: float, z: float, st
     """Say whether nothing at all is in reach of a move by x, y, z, in so many sub-steps.
 
     Asked once, at the begin of CTransition::find_transitional_position. All sub-steps of a mover that has
-    neither contact nor sliding plane go straight (AD-9), so that one ball bounds its spheres wherever any
-    of them is tested, in every rotation between the begin's and the end's. Nothing is in reach if no
-    portal of the cell is (`fences_beyond`), no object, and no polygon of the cell's tree.
+    neither contact nor sliding plane go straight (AD-9), so that one ball bounds its spheres.
 
     retail: CTransition::find_transitional_position 0x0050BDF0, 05 2
     """
     cell = int(s[CURR_CELL])
-    if not allows(s, PLAN_FLIGHT) or not steps <= FLIGHT_STEPS or not _is_in_the_air(wf, wi, s, cell):
+    if s[CONTACT_VALID] != 0.0 or s[SLIDING_VALID] != 0.0 or not steps <= FLIGHT_STEPS:
         return False
-    mx, my, mz = _middle(s)
-    reach = _sphere_reach(s, LOCAL_SPHERE, mx, my, mz)
-    if s[NUM_SPHERE] > 1.0:
-        reach = max(reach, _sphere_reach(s, LOCAL_SPHERE + SPHERE_SIZE, mx, my, mz))
-    reach += 0.5 * _length(x, y, z)
-    ox, oy, oz = load(s, CURR_POS + ORIGIN)
-    cx, cy, cz = ox + mx + 0.5 * x, oy + my + 0.5 * y, oz + mz + 0.5 * z
-    far = reach * (1.0 + BOUND_TILT) + slack(cx, cy, cz) + BOUND_ROUNDING * (abs(x) + abs(y) + abs(z))
-    return _cell_beyond(wf, wi, s, cell, cx, cy, cz, far)
+    if (
+        not allows(s, PLAN_FLIGHT)
+        or not stays_in_contact(s)
+        or not is_flown_through(wf, wi, cell, s[CURR_POS])
+    ):
+        return False
+    cx, cy, cz, far = ball_about_way(s, CURR_POS, turns(s, CURR_POS), x, y, z)
+    return cell_beyond(wf, wi, s, cell, cx, cy, cz, far)
 
 
 @kernel

@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from engine.constants import BLOCK_STEP
-from engine.kernels.compile import entry, inlined
+from engine.kernels.compile import entry, inlined, inlined_entry
 from engine.kernels.frame import frame_globaltolocal
 from engine.kernels.rounding import f32
 from engine.layout import MATRIX, ORIGIN
@@ -114,7 +114,7 @@ def position_localtolocal(b: Array, to: int, a: Array, p: int, x: float, y: floa
     return localtolocal_across(b, to, bx, by, a, p, x, y, z)
 
 
-@entry
+@inlined_entry
 def position_get_offset(a: Array, p: int, b: Array, r: int) -> Vector:
     """Return the way from one position's origin to another's, in the first one's block.
 

@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Final
 
 from engine.constants import frozen
 from engine.kernels.collisions import collide
-from engine.kernels.compile import entry
+from engine.kernels.compile import entry, kernel
 from engine.kernels.object_calls import meet
 from engine.kernels.resolving import resolve
 from engine.kernels.tick import step
@@ -36,16 +36,23 @@ PLACE: Final = frozen(5)
 """Each row is a body, and each of ``out`` its placement: `engine.kernels.tick_placement.place`."""
 
 
+@kernel
+def _resolve_all(wf: Array, wi: Ints, s: Array, rows: Array, out: Array) -> None:
+    for i in range(len(rows)):
+        resolve(wf, wi, s, rows[i], out[i])
+
+
 @entry
 def run(wf: Array, wi: Ints, s: Array, job: int, rows: Array, out: Array) -> None:
     """Do a job for many rows, one after the other, in one row of state.
 
     `out` gets a row of results for each query; what it is for bodies, `STEP`, `UPDATE` and `PLACE` say.
     """
+    if job == RESOLVE:
+        _resolve_all(wf, wi, s, rows, out)
+        return
     for i in range(len(rows)):
-        if job == RESOLVE:
-            resolve(wf, wi, s, rows[i], out[i])
-        elif job == COLLIDE:
+        if job == COLLIDE:
             collide(wf, wi, s, rows[i], out[i])
         elif job == MEET:
             meet(wf, wi, s, rows[i], out[i])

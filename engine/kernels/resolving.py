@@ -5,6 +5,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from engine.kernels.compile import kernel
+from engine.kernels.flight import fly_through
 from engine.kernels.query import prepare, report
 from engine.kernels.transition import find_valid_position
 
@@ -18,6 +19,8 @@ def resolve(wf: Array, wi: Ints, s: Array, q: Array, out: Array) -> None:
 
     retail: what calls CTransition::find_valid_position 0x0050C310, 05 1
     """
+    if fly_through(wf, wi, s, q, out):
+        return
     prepare(s, q)
     found = find_valid_position(wf, wi, s)
     report(wf, s, out, 1 if found else 0)

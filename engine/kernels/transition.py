@@ -18,7 +18,7 @@ from engine.constants import (
 from engine.kernels.adjust import adjust_offset
 from engine.kernels.cells import build_cell_array
 from engine.kernels.collision_info import forget_contact
-from engine.kernels.compile import entry, inlined, kernel
+from engine.kernels.compile import entry, inlined, inlined_entry, kernel
 from engine.kernels.frame import frame_interpolate_rotation, frame_set_rotate
 from engine.kernels.insertion import transitional_insert
 from engine.kernels.path import add_offset_to_check_pos, set_check_pos
@@ -78,7 +78,7 @@ def _scaled(k: float, x: float, y: float, z: float) -> Vector:
     return f32(x * k), f32(y * k), f32(z * k)
 
 
-@entry
+@inlined_entry
 def calc_num_steps(s: Array, viewer: bool, x: float, y: float, z: float) -> tuple[float, float, float, float]:
     """Divide an offset into sub-steps not longer than the sphere's radius: a step, and how many.
 

@@ -11,5 +11,9 @@ Array: TypeAlias = npt.NDArray[np.float64]
 """Float64 numbers: a world's floats or a query's row."""
 Ints: TypeAlias = npt.NDArray[np.int64]
 """A world's integers."""
+Bytes: TypeAlias = npt.NDArray[np.uint8]
+"""Small numbers, many of them."""
 Vector: TypeAlias = tuple[float, float, float]
 """x, y, z."""
+Quaternion: TypeAlias = tuple[float, float, float, float]
+"""w, x, y, z."""

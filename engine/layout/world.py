@@ -84,6 +84,9 @@ WORLD_BUILDING_BOUNDS: Final = _header.field("building_bounds")
 WORLD_LEAF_BOUNDS: Final = _header.field("leaf_bounds")
 """The plate of the polygon that ``ints[i]`` of a leaf's list names is at this place plus `PLATE_SIZE` * i."""
 
+WORLD_CLEARANCES: Final = _header.field("clearances")
+"""Where the table begins of where each environment cell's grid of clearances does, or `NO_CLEARANCE`."""
+
 FIRST_NODE: Final = frozen(math.ceil(_header.size / NODE_INTS))
 """The nodes before it do not exist: their integers are the header, and 0 says `no tree`."""
 
@@ -200,3 +203,25 @@ BOUNDS_FENCE_COUNT: Final = BALL_SIZE + 1
 BOUNDS_PASSABLE: Final = BALL_SIZE + 2
 NOT_FENCED: Final = frozen(-1)
 """Fence count of a cell that has a portal which leads into a cell without containment planes."""
+
+# --- a grid of clearances (`engine.kernels.clearance`) ---------------------------------------------
+CLEARANCE_CORNER: Final = frozen(0)
+"""The grid's least x, y, z, in the frame of the tree, metres."""
+CLEARANCE_COUNTS: Final = frozen(3)
+"""Cubes along x, y, z."""
+CLEARANCE_LEVELS: Final = frozen(6)
+"""Where in the world's integers the cubes' levels begin, eight in each, z changing fastest."""
+CLEARANCE_EDGE: Final = frozen(7)
+"""Of a cube, metres."""
+CLEARANCE_PER_METRE: Final = frozen(8)
+"""Cubes in a metre."""
+CLEARANCE_STEP: Final = frozen(9)
+"""What a level adds to the radius of the clear ball, metres."""
+CLEARANCE_SIZE: Final = frozen(10)
+CLEARANCE_SHIFT: Final = frozen(3)
+CLEARANCE_MASK: Final = frozen(7)
+CLEARANCE_BITS: Final = frozen(8)
+"""An integer holds 2**3 levels of 8 bits, the first one lowest."""
+CLEARANCE_MOST: Final = frozen(127)
+"""Highest level."""
+NO_CLEARANCE: Final = frozen(0)

@@ -1,0 +1,81 @@
+"""Grids of clearances: where in a cell's tree nothing is, and how far around (`engine.kernels.clearance`)."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Final
+
+import numpy as np
+
+from engine import layout as at
+from engine.kernels.clearance import measure_clearance
+from engine.memory import aligned
+
+if TYPE_CHECKING:
+    from collections.abc import Mapping, Sequence
+
+    from engine.cells import Cell
+    from engine.compiling.storage import Storage
+    from engine.geometry import Shape
+    from engine.kernels.types import Array, Bytes, Ints
+
+_LEAST_EDGE: Final = 0.5
+"""Edge of a cube, metres, where there are cubes enough: finer ones say little more of a human's reach."""
+_CUBES_PER_POLYGON: Final = 64
+"""A grid's size, and the time that it takes to make, are bounded by those of its geometry,"""
+_MOST_CUBES: Final = 2**19
+"""and by this: a byte each."""
+_COARSER: Final = 1.1
+"""How much longer edges are made until there are few enough cubes."""
+_STEPS_PER_EDGE: Final = 8
+"""Resolution of clearances."""
+
+
+def write_clearances(storage: Storage, header: Mapping[int, int], cells: Sequence[Cell]) -> dict[int, int]:
+    """Write a grid for each tree of an environment cell; return what the header says of them.
+
+    Parameters
+    ----------
+    header : mapping
+        What it says of the rest, which is all written: plates of polygons are needed, too.
+    cells : sequence of Cell
+        The environment cells.
+    """
+    floats, ints = storage.finish(header)
+    row: Array = aligned(int(ints[at.WORLD_ROW]), np.float64)
+    row[:] = 0.0
+    grids: dict[int, int] = {}
+    for shape in (cell.shape for cell in cells):
+        if shape is None or id(shape) in grids or not len(shape.polygon_offsets):
+            continue
+        grid = _grid_about(shape)
+        levels = np.zeros(int(grid[at.CLEARANCE_COUNTS :][:3].prod()), dtype=np.uint8)
+        measure_clearance(floats, ints, row, storage.root_of(shape), grid, levels)
+        grid[at.CLEARANCE_LEVELS] = storage.add_ints(_packed(levels))
+        storage.align()
+        grids[id(shape)] = storage.add_floats(grid)
+    table = [grids.get(id(cell.shape), int(at.NO_CLEARANCE)) for cell in cells]
+    return {int(at.WORLD_CLEARANCES): storage.add_ints(table)}
+
+
+def _grid_about(shape: Shape) -> Array:
+    """Divide the box about a shape into cubes: not too many, nor too small."""
+    low, high = shape.bounds.reshape(2, int(at.VECTOR_SIZE))
+    most = min(_CUBES_PER_POLYGON * len(shape.polygon_offsets), _MOST_CUBES)
+    edge = _LEAST_EDGE
+    while (counts := np.floor((high - low) / edge) + 1.0).prod() > most:
+        edge *= _COARSER
+    grid = np.zeros(int(at.CLEARANCE_SIZE), dtype=np.float64)
+    grid[at.CLEARANCE_CORNER : at.CLEARANCE_CORNER + at.VECTOR_SIZE] = low
+    grid[at.CLEARANCE_COUNTS : at.CLEARANCE_COUNTS + at.VECTOR_SIZE] = counts
+    grid[at.CLEARANCE_EDGE] = edge
+    grid[at.CLEARANCE_PER_METRE] = 1.0 / edge
+    grid[at.CLEARANCE_STEP] = edge / _STEPS_PER_EDGE
+    return grid
+
+
+def _packed(levels: Bytes) -> Ints:
+    """Put eight levels into each integer, the first one into the lowest bits."""
+    room = -len(levels) % 8
+    eights = np.pad(levels, (0, room)).reshape(-1, 8).astype(np.int64)
+    packed: Ints = (eights << int(at.CLEARANCE_BITS) * np.arange(8)).sum(axis=1)
+    return packed
