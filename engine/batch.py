@@ -13,12 +13,13 @@ from engine.kernels import program
 from engine.object_call import ObjectCall, object_rows
 from engine.plan import FULL_PLAN, NO_PLAN, Plan
 from engine.query import CollisionCall, Move, collision_rows, move_rows
-from engine.threads import in_parts
+from engine.threads import together
 from engine.tracing import runnable
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
+    from engine.kernels.types import Ints
     from engine.query import Rows
     from engine.world import World
 
@@ -141,11 +142,11 @@ def _run(job: int, world: World, rows: Rows, threads: int, plan: Plan) -> Rows:
     answers = results.view(np.float64).reshape(len(rows), at.RESULT_SIZE)
     run = runnable(program.run)
 
-    def work(part: slice) -> None:
-        run(world.floats, world.ints, world.new_row(plan=plan), job, queries[part], answers[part])
+    def work(share: Ints) -> None:
+        run(world.floats, world.ints, world.new_row(plan=plan), job, queries, answers, share)
 
-    in_parts(work, len(rows), threads)
-    check_status(results["status"], results)
+    if together(work, len(rows), threads):
+        check_status(results["status"], results)
     return results
 
 

@@ -14,6 +14,7 @@ from engine.body import Body, body_rows, rows_as_numbers
 from engine.errors import QueryError
 from engine.kernels import program
 from engine.pose import pose_row
+from engine.threads import new_share
 from engine.tracing import runnable
 
 if TYPE_CHECKING:
@@ -98,7 +99,8 @@ def place(
     given["slide"], given["do_not_load_cells"] = slide, do_not_load_cells
     numbers = placements.view(np.float64).reshape(1, int(of_body.PLACEMENT_SIZE))
     bodies = rows_as_numbers(rows)
-    runnable(program.run)(world.floats, world.ints, world.new_row(), program.PLACE, bodies, numbers)
+    row, share = world.new_row(), new_share(1)
+    runnable(program.run)(world.floats, world.ints, row, program.PLACE, bodies, numbers, share)
     check_status(rows["status"])
     x, y, z = (float(c) for c in given["pose"][at.POSE_ORIGIN :])
     return Placement(PlacementResult(int(given["result"])), rows[0], (x, y, z))

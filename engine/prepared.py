@@ -9,12 +9,16 @@ import numpy as np
 from engine import layout as at
 from engine.batch import check_status
 from engine.kernels import program
+from engine.kernels.sharing import SHARE_NEXT
 from engine.plan import FULL_PLAN, NO_PLAN, Plan
 from engine.query import CollisionCall, Move, collision_rows, move_rows
+from engine.threads import new_share
 from engine.tracing import runnable
 
 if TYPE_CHECKING:
     from engine.world import World
+
+_NEXT: Final = int(SHARE_NEXT)
 
 
 class Prepared:
@@ -64,6 +68,7 @@ class Prepared:
         self.query: Final[Any] = rows[0]
         self.result: Final[Any] = results[0]
         self._numbers: Final = results.view(np.float64)
+        self._share: Final = new_share(1)
         self._arguments: Final = (
             world.floats,
             world.ints,
@@ -71,6 +76,7 @@ class Prepared:
             job,
             rows.view(np.float64).reshape(1, at.QUERY_SIZE),
             self._numbers.reshape(1, at.RESULT_SIZE),
+            self._share,
         )
 
     def run(self) -> Any:
@@ -81,6 +87,7 @@ class Prepared:
         RecursionBoundError, UndeterminedError
             As `engine.resolve`.
         """
+        self._share[_NEXT] = 0
         runnable(program.run)(*self._arguments)
         if self._numbers[at.R_STATUS] != at.STATUS_OK:
             check_status(self._numbers[at.R_STATUS : at.R_STATUS + 1])

@@ -18,7 +18,7 @@ from engine.kernels import program, tick_velocity
 from engine.kernels.tick_gates import MAX_TICKS
 from engine.layout import VECTOR_SIZE
 from engine.plan import FULL_PLAN, Plan
-from engine.threads import in_parts
+from engine.threads import together
 from engine.tracing import runnable
 
 if TYPE_CHECKING:
@@ -26,7 +26,7 @@ if TYPE_CHECKING:
 
     import numpy.typing as npt
 
-    from engine.kernels.types import Array
+    from engine.kernels.types import Array, Ints
     from engine.query import Rows
     from engine.world import World
 
@@ -85,11 +85,11 @@ def step_many(
     check_tick(rows, quantum)
     run, times = runnable(program.run), np.array([[quantum, float(ticks)]])
 
-    def work(part: slice) -> None:
-        run(world.floats, world.ints, world.new_row(plan=plan), program.STEP, numbers[part], times)
+    def work(share: Ints) -> None:
+        run(world.floats, world.ints, world.new_row(plan=plan), program.STEP, numbers, times, share)
 
-    in_parts(work, len(rows), threads)
-    check_status(rows["status"])
+    if together(work, len(rows), threads):
+        check_status(rows["status"])
     return rows
 
 
@@ -120,13 +120,13 @@ def update_many(world: World, rows: Rows, now: float, *, threads: int = 1, plan:
     check_tick(rows, MAX_QUANTUM)
     run = runnable(program.run)
 
-    def work(part: slice) -> None:
+    def work(share: Ints) -> None:
         times = np.zeros((3, int(MAX_TICKS)), dtype=np.float64)
         times[0, 0] = now
-        run(world.floats, world.ints, world.new_row(plan=plan), program.UPDATE, numbers[part], times)
+        run(world.floats, world.ints, world.new_row(plan=plan), program.UPDATE, numbers, times, share)
 
-    in_parts(work, len(rows), threads)
-    check_status(rows["status"])
+    if together(work, len(rows), threads):
+        check_status(rows["status"])
     return rows
 
 

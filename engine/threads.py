@@ -1,40 +1,64 @@
-"""Many queries on several threads: consecutive ones together, each part in a row of state of its own.
+"""Many queries on several threads: each takes the next few, and answers them in a row of state of its own.
 
-Parts are taken in turn, not dealt out: queries differ in cost, and a thread may lose its core for a while.
-Helpers wait for the next batch when one is done: to start them takes as long as a small batch does.
+Queries are taken in turn, not dealt out: they differ in cost, and a thread may lose its core for a while.
+They are taken inside the kernels (`engine.kernels.sharing`), so that each thread needs the interpreter's lock
+once. Helpers wait for the next batch when one is done: to start them takes as long as a small batch does.
 """
 
 from __future__ import annotations
 
 import os
-from concurrent.futures import ThreadPoolExecutor, wait
 from functools import cache
-from threading import Lock
+from queue import SimpleQueue
+from threading import Event, Thread
+from time import perf_counter, sleep
 from typing import TYPE_CHECKING, Final
+
+import numpy as np
 
 from engine.checks import told
 from engine.errors import QueryError
+from engine.kernels.sharing import SHARE_DONE, SHARE_FAILED, SHARE_INTS, SHARE_NEXT, SHARE_SIZE
 from engine.tracing import is_recording
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Iterator
+    from collections.abc import Callable, Sequence
 
-PARTS: Final = 4
-"""Parts that a thread would do if all went at the same speed: the last one to finish is that much behind."""
+    from engine.kernels.types import Ints
+
+TURNS: Final = 8
+"""Turns that a thread would have at least if all went at the same speed: who is last is that much behind."""
+MOST_AT_A_TIME: Final = 64
+"""Queries of one turn: the more, the longer the last thread may be waited for."""
+PATIENCE: Final = 0.0005
+"""Seconds in which a helper's last turn is waited for awake: to be woken takes as long as many queries."""
 
 
-def in_parts(work: Callable[[slice], None], count: int, threads: int) -> None:
-    """Do work that consists of independent pieces, with the interpreter's lock released inside kernels.
+def new_share(count: int, threads: int = 1) -> Ints:
+    """Return what so many threads share of so many queries, before the first is taken."""
+    share = np.zeros(int(SHARE_INTS), dtype=np.int64)
+    share[SHARE_SIZE] = count if threads == 1 else min(max(count // (TURNS * threads), 1), MOST_AT_A_TIME)
+    return share
+
+
+def together(work: Callable[[Ints], None], count: int, threads: int) -> int:
+    """Do work that consists of independent queries, with the interpreter's lock released inside kernels.
 
     Parameters
     ----------
     work
-        Does the pieces that a slice selects.
+        Takes queries, and answers them, until all are taken: each thread calls it once, with the same
+        share (`engine.kernels.sharing`).
     count : int
-        How many pieces there are.
+        How many queries there are.
     threads : int
         How many share them, the calling one among them; helpers that are busy with another caller's
-        pieces leave theirs to the others. While writes are recorded there is no helper.
+        queries leave theirs to the others. While writes are recorded there is no helper.
+
+    Returns
+    -------
+    int
+        How many queries could not be answered.
 
     Raises
     ------
@@ -43,39 +67,76 @@ def in_parts(work: Callable[[slice], None], count: int, threads: int) -> None:
     """
     if not isinstance(threads, int) or threads < 1:
         raise QueryError("threads", f"{told(threads)} where at least 1 is needed")
-    sharing = 1 if is_recording() else min(threads, count)
-    if sharing <= 1:
-        work(slice(0, count))
-        return
-    parts = _parts(count, sharing * PARTS)
-    lock = Lock()
-
-    def share() -> None:
-        while True:
-            with lock:
-                part = next(parts, None)
-            if part is None:
-                return
-            work(part)
-
-    helping = [_helpers(os.getpid()).submit(share) for _ in range(sharing - 1)]
+    sharing = 1 if is_recording() else max(min(threads, count), 1)
+    share = new_share(count, sharing)
+    helping = [_Task(work, share) for _ in range(sharing - 1)]
+    for task in helping:
+        _helpers(os.getpid()).put(task)
     try:
-        share()
+        work(share)
     finally:
-        begun = [helper for helper in helping if not helper.cancel()]
-        wait(begun)
-    for helper in begun:
-        helper.result()
+        share[SHARE_NEXT] = count
+        _await(share, count, helping)
+    return int(share[SHARE_FAILED])
+
+
+def _await(share: Ints, count: int, helping: Sequence[_Task]) -> None:
+    """Wait until nobody is at work on a share of which nothing is left: awake for a while, then asleep.
+
+    A helper that has not begun will find nothing to take; one whose queries are all done with needs nothing
+    but to notice it.
+    """
+    end = perf_counter() + PATIENCE
+    while share[SHARE_DONE] < count and perf_counter() < end and helping:
+        sleep(0)
+    if share[SHARE_DONE] < count:
+        for task in helping:
+            task.wait()
+
+
+class _Task:
+    """What a helper is asked to do: work on a share.
+
+    Parameters
+    ----------
+    work, share
+        As those of `together`.
+    """
+
+    def __init__(self, work: Callable[[Ints], None], share: Ints) -> None:
+        self._work: Final = work
+        self._share: Final = share
+        self._has_begun = False
+        self._ended: Final = Event()
+        self._error: BaseException | None = None
+
+    def do(self) -> None:
+        """Work; an error is kept for who waits."""
+        self._has_begun = True
+        try:
+            self._work(self._share)
+        except BaseException as error:  # noqa: BLE001 - raised again in the thread that waits
+            self._error = error
+        finally:
+            self._ended.set()
+
+    def wait(self) -> None:
+        """Wait for the end, unless it has not begun; raise what has been raised."""
+        if self._has_begun:
+            self._ended.wait()
+        if self._error is not None:
+            raise self._error
 
 
 @cache
-def _helpers(_process: int) -> ThreadPoolExecutor:
-    """Return the helpers of a process: one that was forked has none of its parent's."""
-    return ThreadPoolExecutor(os.cpu_count(), thread_name_prefix="engine")
+def _helpers(_process: int) -> SimpleQueue[_Task]:
+    """Return what the helpers of a process are waiting at: one that was forked has none of its parent's."""
+    tasks: SimpleQueue[_Task] = SimpleQueue()
+    for number in range(os.cpu_count() or 1):
+        Thread(target=_help, args=(tasks,), name=f"engine_{number}", daemon=True).start()
+    return tasks
 
 
-def _parts(count: int, number: int) -> Iterator[slice]:
-    """Divide so many pieces into about so many parts; none is empty."""
-    size = -(-count // number)
-    for first in range(0, count, size):
-        yield slice(first, min(first + size, count))
+def _help(tasks: SimpleQueue[_Task]) -> None:
+    while True:
+        tasks.get().do()

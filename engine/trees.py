@@ -9,7 +9,7 @@ import numpy as np
 from engine import layout as at
 from engine.errors import QueryError
 from engine.kernels import tree_calls
-from engine.threads import in_parts
+from engine.threads import together
 from engine.tracing import runnable
 
 if TYPE_CHECKING:
@@ -17,7 +17,7 @@ if TYPE_CHECKING:
 
     import numpy.typing as npt
 
-    from engine.kernels.types import Array
+    from engine.kernels.types import Array, Ints
     from engine.world import World
 
 
@@ -134,10 +134,10 @@ def _run(
 ) -> None:
     run, root = runnable(kernel), _tree(world, cell)
 
-    def work(part: slice) -> None:
-        run(world.floats, world.ints, world.new_row(), root, *(array[part] for array in rows))
+    def work(share: Ints) -> None:
+        run(world.floats, world.ints, world.new_row(), root, *rows, share)
 
-    in_parts(work, len(rows[0]), threads)
+    together(work, len(rows[0]), threads)
 
 
 def _tree(world: World, cell: int) -> int:

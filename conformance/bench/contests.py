@@ -18,6 +18,7 @@ from conformance.bench.settings import BATCHES, LARGE, THREADS
 from conformance.bench.spots import Surfaces
 from conformance.bench.timing import comparison, demand_equal, equal_rows, take_turns
 from conformance.bench.work import rounds_of
+from engine import Plan
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Mapping, Sequence
@@ -32,6 +33,8 @@ if TYPE_CHECKING:
 
 KERNELS: Final = (ops.STRIKE, ops.STEP_DOWN)
 """The hot kernels, which the yardstick has too."""
+SHORTENED: Final = (ops.CONTACT_WALK, ops.FREE_FLIGHT, ops.TICK)
+"""What takes shortcuts."""
 THREADED: Final = (ops.STRIKE, ops.STEP_DOWN, ops.FIND_COLLISIONS, ops.CONTACT_WALK, ops.TICK)
 
 
@@ -82,6 +85,11 @@ class Contest:
     def beside_itself(self, op: str) -> None:
         """Measure the engine beside itself: what differs from 1 is noise."""
         self._beside(op, "engine", [engine_maker(op, LARGE), engine_maker(op, LARGE)], note="noise check")
+
+    def with_shortcuts(self, op: str) -> None:
+        """Measure the engine with its shortcuts beside itself without: the answers are the same."""
+        makers = [engine_maker(op, LARGE), engine_maker(op, LARGE, plan=Plan.none())]
+        self._beside(op, "engine", makers, note="shortcuts, beside none")
 
     def on_threads(self, op: str) -> None:
         """Measure the engine on several threads beside itself on one."""
@@ -209,6 +217,8 @@ def contests_of(
     if "oracle" in sections:
         found += [(f"{op} beside the oracle", _bound("beside_oracle", op)) for op in MAKERS]
         found.append(("free flight beside contact walk", Contest.air_beside_ground))
+    if "plans" in sections:
+        found += [(f"shortcuts of {op}", _bound("with_shortcuts", op)) for op in SHORTENED]
     if "threads" in sections:
         found += [(f"{op} on {THREADS} threads", _bound("on_threads", op)) for op in THREADED]
     if "peers" in sections:

@@ -52,7 +52,7 @@ def has_threads(op: str) -> bool:
     return has_entry(op) and "threads" in inspect.signature(_entry(op)).parameters
 
 
-def engine_maker(op: str, batch: int, threads: int = 1) -> Maker:
+def engine_maker(op: str, batch: int, threads: int = 1, plan: engine.Plan | None = None) -> Maker:
     """Return the engine as an implementation of an operation.
 
     Parameters
@@ -63,8 +63,13 @@ def engine_maker(op: str, batch: int, threads: int = 1) -> Maker:
         Queries in a call. Work that is shorter is asked several times in the same call.
     threads : int
         In a call.
+    plan : engine.Plan, optional
+        Which shortcuts it takes; what the engine takes of itself if nothing is said.
     """
-    call = _entry(op) if threads == 1 else partial(_entry(op), threads=threads)
+    given: dict[str, Any] = {} if threads == 1 else {"threads": threads}
+    if plan is not None:
+        given["plan"] = plan
+    call = partial(_entry(op), **given)
     return {
         STRIKE: partial(_strike_job, call, batch),
         TOUCH: partial(_touch_job, call, batch),

@@ -16,7 +16,7 @@ BATCHES: Final = (1, 100, 10_000)
 LARGE: Final = 10_000
 """The batch in which the engine meets everybody else."""
 THREADS: Final = 2
-SECTIONS: Final = ("oracle", "native", "noise", "threads", "peers", "precision", "scaling")
+SECTIONS: Final = ("oracle", "native", "noise", "plans", "threads", "peers", "precision", "scaling")
 """What can be asked for alone."""
 
 

@@ -51,7 +51,7 @@ def configure(parser: argparse.ArgumentParser) -> None:
         action="append",
         default=[],
         metavar="SECTION",
-        help="oracle, native, noise, threads, peers, precision or scaling alone (repeatable)",
+        help="oracle, native, noise, plans, threads, peers, precision or scaling alone (repeatable)",
     )
     options.add_argument("--seed", type=int, metavar="N", help="of all random points (default: a new one)")
     options.add_argument("--fixtures", type=Path, metavar="DIR", help="folder of real cells (Holtburg)")

@@ -26,7 +26,7 @@ _NOTHING: Final = -1.0
 _NEAR: Final = float(np.sqrt(EPS))
 """How far apart spheres may be that retail calls overlapping, metres in their own space (01, 3.1)."""
 _UNIT: Final = 1e-4
-"""How far a splitting plane's squared normal may be from 1, in a tree that is passed by unseen."""
+"""How far a plane's squared normal may be from 1, in a cell that is flown through unseen."""
 
 
 class Bounds:
@@ -100,18 +100,22 @@ class Bounds:
             fences.append(fence)
         return _stack(fences, int(at.PLANE_SIZE))
 
-    def is_passable(self, cell: int, cell_id: int, shape: Shape | None) -> bool:
+    def is_passable(self, cell: int, cell_id: int, shape: Shape | None, fences: Array) -> bool:
         """Say whether a cell may be flown through unseen.
 
-        Nobody is kept out of it, its pose is in its own block, and its splitting planes' normals are unit.
+        Nobody is kept out of it, its pose is in its own block, and the normals of the planes that a ball is
+        compared with are unit: of its `fences`, and those that split its tree and that contain it.
         """
         block = int(self._position(cell).numbers[0]) >> 16
         if block != cell_id >> 16 or self._record(cell)[at.CELL_RESTRICTION] != at.NO_RESTRICTION:
             return False
-        if shape is None:
-            return True
-        nodes = shape.node_ints[:, at.NODE_KIND] == at.KIND_NODE
-        squares = (shape.node_floats[nodes, : at.VECTOR_SIZE] ** 2).sum(axis=1)
+        planes = [fences[:, : at.VECTOR_SIZE]]
+        if shape is not None:
+            nodes = shape.node_ints[:, at.NODE_KIND] == at.KIND_NODE
+            planes.append(shape.node_floats[nodes, : at.VECTOR_SIZE])
+            if shape.cell_planes is not None:
+                planes.append(shape.cell_planes[:, : at.VECTOR_SIZE])
+        squares = (np.concatenate(planes) ** 2).sum(axis=1)
         return bool((np.abs(squares - 1.0) < _UNIT).all())
 
     def _record(self, cell: int) -> Ints:
@@ -244,7 +248,7 @@ def write_bounds(
         if fences is not None:
             rows[index, at.BOUNDS_FENCES] = storage.add_floats(fences.ravel())
             rows[index, at.BOUNDS_FENCE_COUNT] = len(fences)
-        rows[index, at.BOUNDS_PASSABLE] = bounds.is_passable(index, cell.id, cell.shape)
+            rows[index, at.BOUNDS_PASSABLE] = bounds.is_passable(index, cell.id, cell.shape, fences)
     return {
         int(at.WORLD_CELL_BOUNDS): storage.add_floats(rows.ravel()),
         int(at.WORLD_OBJECT_BOUNDS): storage.add_floats(objects.ravel()),

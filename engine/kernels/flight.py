@@ -67,6 +67,7 @@ from engine.layout import (
     SKIPPED,
     SKIPPED_FLIGHT,
     SLIDING_VALID,
+    TRACE_LENGTH,
 )
 
 if TYPE_CHECKING:
@@ -83,11 +84,11 @@ def fly_through(wf: Array, wi: Ints, s: Array, q: Array, out: Array) -> bool:
     """Answer a query if it is a free flight all the way; say whether it was.
 
     It is one if the mover neither touches, slides along nor looks for anything, and the ball about its way
-    (`ball_about_way`) is inside its cell and clear of everything: CEnvCell::point_in_cell, which `fly` asks of
-    each sub-step, contains its first sphere wherever it is. What CTransition::find_transitional_position does
-    then in each sub-step is to turn and to move (FT-8, FT-11), to find nothing, and to accept where it is
-    (VT-3); as long as it moves by more than EPS, VT-10 counts nothing. All other queries are left to it: what
-    is written here into the row of state, it writes before it reads.
+    (`ball_about_way`) is inside its cell and clear of everything: in every sub-step the cell contains its
+    first sphere, which `fly` asks each time (OC-3). All that CTransition::find_transitional_position does
+    then is to turn and to move (FT-8, FT-11), and to accept where the mover is (VT-3); as long as that is
+    more than EPS away, VT-10 counts nothing. All other queries are left to it; what is written here into
+    the row of state, it writes before it reads.
 
     retail: CTransition::find_transitional_position 0x0050BDF0, 05 2
     """
@@ -131,7 +132,8 @@ def _take_off(s: Array, q: Array) -> None:
     """Set what of the row a flight reads, and its counters."""
     for i in range(NODES_VISITED, OBJECTS_TESTED + 1):
         s[i] = 0.0
-    copy_four(s, SKIPPED, s, NODES_VISITED)
+    for i in range(SKIPPED, TRACE_LENGTH):
+        s[i] = 0.0
     s[NUM_COLLIDE_OBJECT] = 0.0
     init_spheres(s, int(q[Q_NUM_SPHERE]), q, Q_SPHERES, q[Q_SCALE])
     load_pose(s, CHECK_POS, q, Q_START)

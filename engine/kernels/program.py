@@ -8,14 +8,17 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Final
 
+from engine.body_layout import B_STATUS
 from engine.constants import frozen
 from engine.kernels.collisions import collide
-from engine.kernels.compile import entry, kernel
+from engine.kernels.compile import entry, inlined, kernel
 from engine.kernels.object_calls import meet
 from engine.kernels.resolving import resolve
+from engine.kernels.sharing import SHARE_SIZE, put_back, take
 from engine.kernels.tick import step
 from engine.kernels.tick_gates import update
 from engine.kernels.tick_placement import place
+from engine.layout import R_STATUS, STATUS_OK
 
 if TYPE_CHECKING:
     from engine.kernels.types import Array, Ints
@@ -36,29 +39,48 @@ PLACE: Final = frozen(5)
 """Each row is a body, and each of ``out`` its placement: `engine.kernels.tick_placement.place`."""
 
 
-@kernel
-def _resolve_all(wf: Array, wi: Ints, s: Array, rows: Array, out: Array) -> None:
-    for i in range(len(rows)):
-        resolve(wf, wi, s, rows[i], out[i])
-
-
-@entry
-def run(wf: Array, wi: Ints, s: Array, job: int, rows: Array, out: Array) -> None:
-    """Do a job for many rows, one after the other, in one row of state.
-
-    `out` gets a row of results for each query; what it is for bodies, `STEP`, `UPDATE` and `PLACE` say.
-    """
-    if job == RESOLVE:
-        _resolve_all(wf, wi, s, rows, out)
-        return
-    for i in range(len(rows)):
-        if job == COLLIDE:
-            collide(wf, wi, s, rows[i], out[i])
-        elif job == MEET:
-            meet(wf, wi, s, rows[i], out[i])
-        elif job == STEP:
+@inlined
+def _do(wf: Array, wi: Ints, s: Array, job: int, rows: Array, out: Array, i: int) -> float:
+    """Do a job for one row; return its status."""
+    if job == COLLIDE:
+        collide(wf, wi, s, rows[i], out[i])
+    elif job == MEET:
+        meet(wf, wi, s, rows[i], out[i])
+    else:
+        if job == STEP:
             step(wf, wi, s, rows[i], out[0, 0], out[0, 1])
         elif job == PLACE:
             place(wf, wi, s, rows[i], out[i])
         else:
             update(wf, wi, s, rows[i], out[0, 0], out[1], out[2])
+        return rows[i, B_STATUS]
+    return out[i, R_STATUS]
+
+
+@kernel
+def _resolve_some(wf: Array, wi: Ints, s: Array, rows: Array, out: Array, first: int, last: int) -> int:
+    """Answer some moves; return how many could not be. A loop of their own spares them the other jobs."""
+    failed = 0
+    for i in range(first, last):
+        resolve(wf, wi, s, rows[i], out[i])
+        failed += out[i, R_STATUS] != STATUS_OK
+    return failed
+
+
+@entry
+def run(wf: Array, wi: Ints, s: Array, job: int, rows: Array, out: Array, share: Ints) -> None:
+    """Do a job for rows that are taken from a share, one after the other, in one row of state.
+
+    `out` gets a row of results for each query; what it is for bodies, `STEP`, `UPDATE` and `PLACE` say.
+    """
+    first = take(share)
+    while first < len(rows):
+        failed = 0
+        last = min(first + share[SHARE_SIZE], len(rows))
+        if job == RESOLVE:
+            failed += _resolve_some(wf, wi, s, rows, out, first, last)
+        else:
+            for i in range(first, last):
+                failed += _do(wf, wi, s, job, rows, out, i) != STATUS_OK
+        put_back(share, last - first, failed)
+        first = take(share)

@@ -6,8 +6,9 @@ from typing import TYPE_CHECKING
 
 from engine.kernels.bsp_poly import sphere_intersects_poly
 from engine.kernels.bsp_walkable import find_walkable
-from engine.kernels.compile import entry, inlined
+from engine.kernels.compile import entry, inlined, kernel
 from engine.kernels.rounding import f32
+from engine.kernels.sharing import SHARE_SIZE, put_back, take
 from engine.layout import NO_POLYGON, POLYGON_ID, RADIUS, WALK_INTERP, WALKABLE_ALLOWANCE
 
 if TYPE_CHECKING:
@@ -26,20 +27,83 @@ def _id(wf: Array, poly: int) -> int:
     return int(wf[poly + POLYGON_ID]) if poly != NO_POLYGON else -1
 
 
-@entry
-def strike_many(
-    wf: Array, wi: Ints, s: Array, root: int, spheres: Array, movements: Array, struck: Ints, polygons: Ints
+@kernel
+def _strike_some(
+    wf: Array,
+    wi: Ints,
+    s: Array,
+    root: int,
+    spheres: Array,
+    movements: Array,
+    struck: Ints,
+    polygons: Ints,
+    first: int,
+    last: int,
 ) -> None:
-    """Find for each sphere the polygon that it strikes.
+    """Find for each of some spheres the polygon that it strikes.
 
     retail: what calls BSPNODE::sphere_intersects_poly 0x0053CA30, 03 2
     """
-    for i in range(len(spheres)):
+    for i in range(first, last):
         x, y, z = _vector(spheres, i)
         mx, my, mz = _vector(movements, i)
         r = f32(spheres[i, RADIUS])
         struck[i], poly = sphere_intersects_poly(wf, wi, s, root, x, y, z, r, mx, my, mz, NO_POLYGON)
         polygons[i] = _id(wf, poly)
+
+
+@kernel
+def _step_some_down(
+    wf: Array,
+    wi: Ints,
+    s: Array,
+    root: int,
+    spheres: Array,
+    movements: Array,
+    ups: Array,
+    allowances: Array,
+    interps: Array,
+    centers: Array,
+    polygons: Ints,
+    first: int,
+    last: int,
+) -> None:
+    """Put each of some spheres on the polygons that it can walk on; `interps` is ratcheted down in place.
+
+    retail: what calls BSPNODE::find_walkable 0x0053CC80, 03 5
+    """
+    for i in range(first, last):
+        x, y, z = _vector(spheres, i)
+        r = f32(spheres[i, RADIUS])
+        mx, my, mz = _vector(movements, i)
+        ux, uy, uz = _vector(ups, i)
+        s[WALKABLE_ALLOWANCE] = f32(allowances[i])
+        s[WALK_INTERP] = f32(interps[i])
+        poly, x, y, z = find_walkable(wf, wi, s, root, x, y, z, r, mx, my, mz, ux, uy, uz)
+        centers[i, 0], centers[i, 1], centers[i, 2] = x, y, z
+        interps[i] = s[WALK_INTERP]
+        polygons[i] = _id(wf, poly)
+
+
+@entry
+def strike_many(
+    wf: Array,
+    wi: Ints,
+    s: Array,
+    root: int,
+    spheres: Array,
+    movements: Array,
+    struck: Ints,
+    polygons: Ints,
+    share: Ints,
+) -> None:
+    """Strike with spheres that are taken from a share."""
+    first = take(share)
+    while first < len(spheres):
+        last = min(first + share[SHARE_SIZE], len(spheres))
+        _strike_some(wf, wi, s, root, spheres, movements, struck, polygons, first, last)
+        put_back(share, last - first, 0)
+        first = take(share)
 
 
 @entry
@@ -55,19 +119,26 @@ def step_down_many(
     interps: Array,
     centers: Array,
     polygons: Ints,
+    share: Ints,
 ) -> None:
-    """Put each sphere on the polygons that it can walk on; `interps` is ratcheted down in place.
-
-    retail: what calls BSPNODE::find_walkable 0x0053CC80, 03 5
-    """
-    for i in range(len(spheres)):
-        x, y, z = _vector(spheres, i)
-        r = f32(spheres[i, RADIUS])
-        mx, my, mz = _vector(movements, i)
-        ux, uy, uz = _vector(ups, i)
-        s[WALKABLE_ALLOWANCE] = f32(allowances[i])
-        s[WALK_INTERP] = f32(interps[i])
-        poly, x, y, z = find_walkable(wf, wi, s, root, x, y, z, r, mx, my, mz, ux, uy, uz)
-        centers[i, 0], centers[i, 1], centers[i, 2] = x, y, z
-        interps[i] = s[WALK_INTERP]
-        polygons[i] = _id(wf, poly)
+    """Step down with spheres that are taken from a share."""
+    first = take(share)
+    while first < len(spheres):
+        last = min(first + share[SHARE_SIZE], len(spheres))
+        _step_some_down(
+            wf,
+            wi,
+            s,
+            root,
+            spheres,
+            movements,
+            ups,
+            allowances,
+            interps,
+            centers,
+            polygons,
+            first,
+            last,
+        )
+        put_back(share, last - first, 0)
+        first = take(share)

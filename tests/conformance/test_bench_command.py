@@ -62,6 +62,16 @@ def test_the_noise_check_is_the_engine_beside_itself() -> None:
     assert [(line.reference, line.note) for line in report.ratios] == [("engine", "noise check")]
 
 
+def test_shortcuts_are_measured_beside_none() -> None:
+    """With the same answers; an answer that differed would be a failure."""
+    report = Report(3)
+    benchmark.measure(tiny("plans"), report, lambda _: None)
+    assert report.failures == []
+    assert [(line.op, line.note) for line in report.ratios] == [
+        (op, "shortcuts, beside none") for op in (ops.CONTACT_WALK, ops.FREE_FLIGHT, ops.TICK)
+    ]
+
+
 def test_curves_have_a_cost_for_each_size() -> None:
     """Moves of more and more sub-steps cost more; each size has its own."""
     report = Report(3)

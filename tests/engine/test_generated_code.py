@@ -54,7 +54,7 @@ def test_one_rounding_for_each_store(kernel: Any, signature: tuple[Any, ...], st
 
 def test_no_fused_multiply_add_and_no_reference_counts() -> None:
     """Whole queries and ticks, with all that they call, neither fuse operations nor count references."""
-    fresh = compiled(run, (FLOATS, INTS, FLOATS, N, ROWS, ROWS))
+    fresh = compiled(run, (FLOATS, INTS, FLOATS, N, ROWS, ROWS, INTS))
     (code,) = fresh.inspect_llvm().values()
     (assembly,) = fresh.inspect_asm().values()
     assert "NRT_incref" not in code

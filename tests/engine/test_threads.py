@@ -4,8 +4,9 @@ from __future__ import annotations
 
 import os
 from concurrent.futures import ThreadPoolExecutor
-from threading import Barrier
+from threading import Barrier, Lock, current_thread, main_thread
 from threading import enumerate as enumerate_threads
+from typing import TYPE_CHECKING
 
 import numpy as np
 import pytest
@@ -23,11 +24,19 @@ from engine import (
     find_collisions_many,
     resolve_many,
     step_many,
+    strike_many,
     update_many,
 )
-from engine.threads import in_parts
+from engine.kernels.sharing import SHARE_DONE, SHARE_FAILED, SHARE_NEXT, SHARE_SIZE
+from engine.threads import together
 from engine.tracing import recording
 
+if TYPE_CHECKING:
+    from collections.abc import Iterator
+
+    from engine.kernels.types import Ints
+
+LOCK = Lock()
 GROUND = ContactPlane((0, 0, 1, 0), CELL)
 MOVES = [
     Move(mover(3), at(0.1 * i, 0.5, R), CELL, start=at(0.1 * i - 0.3, 0, R), seed=Seed(GROUND, GROUND))
@@ -59,17 +68,56 @@ def test_bodies_move_as_with_one_thread(threads: int) -> None:
     assert one.tobytes() == many.tobytes()
 
 
-def test_parts_cover_everything_once() -> None:
-    """Whatever the number of pieces and threads."""
-    for count in (0, 1, 5, 16):
+def taken(share: Ints, count: int) -> Iterator[slice]:
+    """Take queries from a share as kernels do, until there are none."""
+    while True:
+        with LOCK:
+            first = int(share[SHARE_NEXT])
+            share[SHARE_NEXT] += share[SHARE_SIZE]
+        if first >= count:
+            return
+        some = slice(first, min(first + int(share[SHARE_SIZE]), count))
+        yield some
+        with LOCK:
+            share[SHARE_DONE] += some.stop - some.start
+
+
+def test_everything_is_taken_once() -> None:
+    """Whatever the number of queries and threads."""
+    for count in (0, 1, 5, 16, 5000):
         for threads in (1, 2, 3, 7):
             done = np.zeros(count, dtype=int)
 
-            def work(part: slice, done: np.ndarray = done) -> None:
-                done[part] += 1
+            def work(share: Ints, done: np.ndarray = done) -> None:
+                for some in taken(share, len(done)):
+                    done[some] += 1
 
-            in_parts(work, count, threads)
+            assert together(work, count, threads) == 0
             assert (done == 1).all()
+
+
+def test_kernels_take_everything_once() -> None:
+    """With more queries than are taken at a time, by as many threads as there are helpers, and by more."""
+    rng = np.random.default_rng(3)
+    spheres = np.column_stack([rng.uniform(-1.0, 1.0, size=(5000, 3)), np.full(5000, R)])
+    world, ways = world_of(floor_and_wall()), rng.normal(size=(5000, 3))
+    one = strike_many(world, 0, spheres, ways)
+    assert len(np.unique(one[1])) == 3
+    for threads in (2, 5):
+        many = strike_many(world, 0, spheres, ways, threads=threads)
+        assert all(np.array_equal(mine, theirs) for mine, theirs in zip(many, one, strict=True))
+
+
+def test_what_cannot_be_answered_is_counted() -> None:
+    """By all threads together."""
+    count = 100
+
+    def work(share: Ints) -> None:
+        for some in taken(share, count):
+            with LOCK:
+                share[SHARE_FAILED] += some.stop - some.start
+
+    assert [together(work, count, threads) for threads in (1, 3)] == [count, count]
 
 
 def test_no_threads_are_no_number_of_threads() -> None:
@@ -81,11 +129,26 @@ def test_no_threads_are_no_number_of_threads() -> None:
 def test_an_error_in_a_thread_is_raised() -> None:
     """Not swallowed with the thread; of two, either."""
 
-    def fail(part: slice) -> None:
-        raise ArithmeticError(str(part.start))
+    def fail(_share: Ints) -> None:
+        raise ArithmeticError("0")
 
-    with pytest.raises(ArithmeticError, match=r"[01]"):
-        in_parts(fail, 4, 2)
+    with pytest.raises(ArithmeticError, match="0"):
+        together(fail, 4, 2)
+
+
+def test_an_error_of_a_helper_is_raised() -> None:
+    """Of one that has taken queries, which nobody else will do."""
+    barrier = Barrier(2)
+
+    def work(share: Ints) -> None:
+        first = next(taken(share, 2)).start
+        barrier.wait(timeout=60)
+        if current_thread() is not main_thread():
+            raise ArithmeticError(first)
+        share[SHARE_DONE] += 1
+
+    with pytest.raises(ArithmeticError):
+        together(work, 2, 2)
 
 
 def test_several_callers_at_a_time() -> None:
@@ -95,10 +158,11 @@ def test_several_callers_at_a_time() -> None:
     def call(_: int) -> bool:
         done = np.zeros(size, dtype=int)
 
-        def work(part: slice) -> None:
-            done[part] += 1
+        def work(share: Ints) -> None:
+            for some in taken(share, size):
+                done[some] += 1
 
-        in_parts(work, size, 3)
+        together(work, size, 3)
         return bool((done == 1).all())
 
     with ThreadPoolExecutor(callers) as others:
@@ -109,11 +173,11 @@ def test_helpers_are_kept_for_the_next_batch() -> None:
     """No call starts more of them than there are processors."""
     barrier = Barrier(2)
 
-    def meet(_part: slice) -> None:
+    def meet(_share: Ints) -> None:
         barrier.wait(timeout=60)
 
     for _ in range(20):
-        in_parts(meet, 2, 2)
+        together(meet, 2, 2)
     helpers = [thread for thread in enumerate_threads() if thread.name.startswith("engine")]
     assert 1 <= len(helpers) <= (os.cpu_count() or 1)
 
@@ -126,7 +190,7 @@ def test_while_writes_are_recorded_there_is_one_thread() -> None:
         with recording() as trace:
             resolve_many(world, MOVES[:2], threads=threads)
         texts.append(repr(trace))
-    parts: list[slice] = []
+    shares: list[Ints] = []
     with recording():
-        in_parts(parts.append, 4, 2)
-    assert parts == [slice(0, 4)]
+        together(shares.append, 4, 2)
+    assert [share[SHARE_SIZE] for share in shares] == [4]

@@ -29,6 +29,7 @@ from engine.kernels.program import run as compiled
 from engine.layout import RESULT_SIZE
 from engine.plan import NO_PLAN
 from engine.query import move_rows
+from engine.threads import new_share
 from engine.tracing import UnknownTopicError, recording, runnable
 from engine.tracing_writes import (
     BSP,
@@ -244,8 +245,9 @@ def test_an_error_leaves_a_call_unfinished() -> None:
 
     queries = move_rows(world, [LANDING]).view(np.float64).reshape(1, -1)
     out = np.zeros((1, int(RESULT_SIZE)))
+    floats, row = world.floats.view(Unreadable), world.new_row()
     with recording((STATE, BSP)) as trace, pytest.raises(FatalError):
-        runnable(compiled)(world.floats.view(Unreadable), world.ints, world.new_row(), RESOLVE, queries, out)
+        runnable(compiled)(floats, world.ints, row, RESOLVE, queries, out, new_share(1))
     assert told(trace) == [("Call", "A", UNFINISHED, "find_env_collisions")]
 
 

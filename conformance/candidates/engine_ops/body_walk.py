@@ -19,6 +19,7 @@ from engine.body_layout import BODY_DTYPE, OUTCOMES
 from engine.constants import CONTACT_TS, SLIDING_TS
 from engine.kernels import program, tick_velocity
 from engine.plan import FULL_PLAN
+from engine.threads import new_share
 from engine.tracing import runnable
 
 if TYPE_CHECKING:
@@ -89,7 +90,8 @@ class Recorder:
         while True:
             state = self.world.new_row(trace_capacity=capacity)
             step, times = runnable(program.run), np.array([[quantum, 1.0]])
-            step(self.world.floats, self.world.ints, state, program.STEP, row.reshape(1, -1), times)
+            bodies, world = row.reshape(1, -1), self.world
+            step(world.floats, world.ints, state, program.STEP, bodies, times, new_share(1))
             check_status(self.body.record["status"].reshape(1))
             trace = trace_text(state, self.world.ints)
             if trace is not None:
@@ -106,7 +108,8 @@ class Recorder:
         world = self.world
         state = world.new_row(plan=FULL_PLAN)
         times = np.array([[quantum, 1.0]])
-        program.run(world.floats, world.ints, state, program.STEP, row.reshape(1, -1), times)
+        bodies = row.reshape(1, -1)
+        program.run(world.floats, world.ints, state, program.STEP, bodies, times, new_share(1))
         note_work(state)
         return row.view(BODY_DTYPE)[0], world.touched(state)
 

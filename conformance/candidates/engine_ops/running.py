@@ -17,6 +17,7 @@ from engine import layout as at
 from engine.batch import check_status
 from engine.kernels import program
 from engine.plan import FULL_PLAN
+from engine.threads import new_share
 from engine.tracing import runnable
 
 if TYPE_CHECKING:
@@ -58,7 +59,7 @@ def run_noting(job: int, world: World, row: Any) -> tuple[Any, str, list[int]]:
         state = world.new_row(trace_capacity=capacity)
         result = np.zeros(1, dtype=at.RESULT_DTYPE)
         numbers, answer = numbers_of(row).reshape(1, -1), result.view(np.float64).reshape(1, -1)
-        runnable(program.run)(world.floats, world.ints, state, job, numbers, answer)
+        runnable(program.run)(world.floats, world.ints, state, job, numbers, answer, new_share(1))
         check_status(result["status"])
         trace = trace_text(state, world.ints)
         if trace is not None:
@@ -76,7 +77,7 @@ def _run_with_shortcuts(world: World, row: Any) -> tuple[Any, list[int]]:
     state = world.new_row(plan=FULL_PLAN)
     result = np.zeros(1, dtype=at.RESULT_DTYPE)
     query, answer = (numbers.reshape(1, -1) for numbers in (numbers_of(row), result.view(np.float64)))
-    program.run(world.floats, world.ints, state, program.RESOLVE, query, answer)
+    program.run(world.floats, world.ints, state, program.RESOLVE, query, answer, new_share(1))
     note_work(state)
     check_status(result["status"])
     return result[0], world.touched(state)
