@@ -109,7 +109,7 @@ def run(args: argparse.Namespace) -> int:
         ending = _run(campaign)
     code = _exit_code(journal.tally, ending.code)
     console = make_console()
-    for line in lines(journal.tally, campaign, plan, args.candidate):
+    for line in lines(journal.tally, campaign, plan, identity):
         console.print(line)
     if ending.said:
         console.print(ending.said, style="red")

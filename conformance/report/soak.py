@@ -20,8 +20,9 @@ _MOST_REASONS: Final = 10
 """Reasons for skipping that are shown; all are in the summary."""
 
 
-def lines(tally: Tally, campaign: Campaign, plan: Plan, candidate: str) -> Iterator[str]:
+def lines(tally: Tally, campaign: Campaign, plan: Plan, identity: Identity) -> Iterator[str]:
     """Say what a campaign has come to, its commonest failures first."""
+    candidate = identity.candidate
     yield f"{tally.queries:,} of {plan.shards * plan.shard_size:,} queries: {counts(tally)}"
     yield (
         f"this run: {duration(campaign.pace.seconds)}, {campaign.pace.rate(tally):.0f} queries a second; "
@@ -34,6 +35,8 @@ def lines(tally: Tally, campaign: Campaign, plan: Plan, candidate: str) -> Itera
     for kind, failing in sorted(tally.failing.items(), key=lambda item: -item[1].count):
         yield from _failing(kind, failing, plan, candidate)
     yield from campaign.notes
+    if not identity.candidate_digest:
+        yield "a change of the candidate would not be noticed: --candidate-digest says what it is"
 
 
 def summary(tally: Tally, identity: Identity, code: int) -> str:

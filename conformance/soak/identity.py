@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import platform
+import re
 import shutil
 import sys
 from functools import cache
@@ -53,7 +55,8 @@ def identity_of(
 def drawing_digest() -> str:
     """Return the digest of retail, of the comparison, and of all that a draw depends on."""
     shared = [file_digest(_VECTORS / name) for name in (*GEOMETRY_FILES, WORLD_FILE)]
-    return digest_of(suite_digest(), metadata.version("hypothesis"), *shared)[:_DIGITS]
+    system = (platform.system(), platform.machine())  # whose sines and roots the strategies use
+    return digest_of(suite_digest(), metadata.version("hypothesis"), *system, *shared)[:_DIGITS]
 
 
 @cache
@@ -72,9 +75,14 @@ def _files_of(candidate: str) -> list[Path]:
         spec = find_spec(module)
         return [Path(spec.origin)] if spec is not None and spec.origin is not None else []
     words = split_command(candidate.removeprefix(COMMAND_PREFIX))
-    names = words.split() if isinstance(words, str) else words
+    names = _windows_words(words) if isinstance(words, str) else words
     found = [shutil.which(names[0]), *names[1:]]
     return [Path(name) for name in found if name is not None and _is_program(name)]
+
+
+def _windows_words(command: str) -> list[str]:
+    """Return the words of a command on Windows, where each program splits its own."""
+    return [quoted or plain for quoted, plain in re.findall(r'"([^"]*)"|(\S+)', command)]
 
 
 def _is_program(name: str) -> bool:

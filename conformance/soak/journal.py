@@ -20,7 +20,7 @@ M = TypeVar("M", bound=BaseModel)
 
 _CHANGED: Final = {
     "soak": "the version of the journal",
-    "suite": "the suite (its sources, Python, or a package)",
+    "suite": "the suite (its sources, Python, a package, or the system)",
     "candidate": "the candidate",
     "candidate_digest": "the candidate's files",
     "seed": "the seed",
@@ -98,10 +98,9 @@ class SoakJournal:
         OSError
             It cannot be written.
         """
-        is_new = self.tally.add(result)
-        if is_new:
-            self._write(result.model_dump())
-        return is_new
+        if result.shard not in self.tally:
+            self._write(result.model_dump())  # first: what is counted is there after a full disk
+        return self.tally.add(result)
 
     def keep(self, kept: Kept) -> None:
         """Write down the case that a failure was kept as."""

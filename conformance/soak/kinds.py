@@ -15,6 +15,8 @@ FEW_ULPS: Final = 4
 """Up to here a float has been rounded in another way; beyond, it is another number."""
 NO_ANSWER: Final = "no answer"
 _NUMBER: Final = re.compile(r"\b(?:0[xX][0-9a-fA-F]+|\d+)\b")
+_WORD_OF_NUMBERS: Final = re.compile(r"\w*\d\w*")
+"""An address or an id, in whatever way an engine writes it."""
 _ANY_NUMBER: Final = "#"
 _LONGEST: Final = 160
 """Characters of what a candidate says about an error that count."""
@@ -48,7 +50,8 @@ def kind_of_difference(op: str, first: Difference) -> FailureKind:
 
 def kind_of_error(op: str, who: str, context: str) -> FailureKind:
     """Return the kind of a missing answer, by who failed to give it and what was said about it."""
-    return FailureKind(op, NO_ANSWER, _without_numbers(f"{who} failed: {context}")[:_LONGEST])
+    said = _WORD_OF_NUMBERS.sub(_ANY_NUMBER, context)
+    return FailureKind(op, NO_ANSWER, f"{who} failed: {said}"[:_LONGEST])
 
 
 def _cause(first: Difference) -> str:

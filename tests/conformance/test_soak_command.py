@@ -8,6 +8,7 @@ import os
 from typing import TYPE_CHECKING, Any
 
 import pytest
+from faux import ENGINE, faux_command
 from soak_runs import FAMILY, engine
 
 from conformance import cli, exit_codes
@@ -64,6 +65,27 @@ def test_a_wrong_engine_is_red(tmp_path: Path, capsys: pytest.CaptureFixture[str
     assert kept == [case.name]
 
 
+def test_of_an_engine_that_names_no_file_nothing_is_known(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    """That a change would not be noticed is said; its author can say what it is."""
+    said = "a change of the candidate would not be noticed: --candidate-digest says what it is"
+    command = f"cmd:{faux_command('right')}".replace(str(ENGINE), "-c pass")
+    assert soak(tmp_path / "a", command, queries="1") == exit_codes.BROKEN
+    assert said in capsys.readouterr().out
+    assert soak(tmp_path / "b", command, "--candidate-digest", "build 7", queries="1") == exit_codes.BROKEN
+    assert said not in capsys.readouterr().out
+
+
+def test_an_engine_that_does_not_stop_properly_is_broken(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    """Also one that has done nothing wrong before."""
+    command = f"cmd:{faux_command('sour')}"
+    assert soak(tmp_path, command, queries="1") == exit_codes.BROKEN
+    assert f"  {command} does not stop properly: " in capsys.readouterr().out
+
+
 def test_a_silent_engine_is_broken(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     """It is not asked on."""
     assert soak(tmp_path, engine("Silent")) == exit_codes.BROKEN
@@ -115,7 +137,9 @@ def test_a_full_disk_is_told(
 
     monkeypatch.setattr(JournalWriter, "write", full)
     assert soak(tmp_path, engine("Right")) == exit_codes.CANNOT_WRITE
-    assert f"could not be written: [Errno {errno.ENOSPC}]" in capsys.readouterr().out
+    said = capsys.readouterr().out
+    assert "20 of 40 queries: 20 agreed" in said
+    assert f"could not be written: [Errno {errno.ENOSPC}]" in said
 
 
 @pytest.mark.parametrize(

@@ -60,7 +60,7 @@ def test_what_was_found_is_known(path: Path, lines: list[str]) -> None:
     ("changes", "what"),
     [
         ({"seed": 8}, "the seed has changed: found 7, expected 8"),
-        ({"suite": "new"}, "the suite (its sources, Python, or a package) has changed"),
+        ({"suite": "new"}, "the suite (its sources, Python, a package, or the system) has changed"),
         ({"candidate": "engine"}, "the candidate has changed: found 'mod:soak_engines:Faulty'"),
         ({"candidate_digest": "new"}, "the candidate's files has changed"),
         ({"shard_size": 10}, "the size of a shard has changed: found 20, expected 10"),

@@ -37,9 +37,9 @@ def test_a_cause_is_how_it_differs(
 
 def test_errors_are_alike_but_for_their_numbers() -> None:
     """Addresses and indices in what an engine says are no other error."""
-    one = kind_of_error("walk", "cmd:./my-engine", "bad cell 0xA9B40151 at 7")
-    assert one == kind_of_error("walk", "cmd:./my-engine", "bad cell 0xA9B40152 at 12")
-    assert one == FailureKind("walk", NO_ANSWER, "cmd:./my-engine failed: bad cell # at #")
+    one = kind_of_error("walk", "cmd:./v2", "bad cell 0xA9B40151 at 7fe2")
+    assert one == kind_of_error("walk", "cmd:./v2", "bad cell 0xA9B40152 at 12")
+    assert one == FailureKind("walk", NO_ANSWER, "cmd:./v2 failed: bad cell # at #")
     assert len(kind_of_error("walk", "engine", "x" * 1000).cause) == 160
 
 
