@@ -128,6 +128,7 @@ class _Ending(NamedTuple):
 
 def _run(campaign: Campaign) -> _Ending:
     """Run a campaign; whatever ends it early, what it has found so far is shown."""
+    from conformance.candidates.registry import BadCandidateError
     from conformance.soak.campaign import NoAnswersError, WorkerLostError
     from conformance.soak.cluster import ClusterError
     from conformance.soak.shard import SilentCandidateError
@@ -140,7 +141,7 @@ def _run(campaign: Campaign) -> _Ending:
         return _Ending(exit_codes.BROKEN_OFF, "broken off")
     except (NoAnswersError, SilentCandidateError, UnlikeShardError, WorkerLostError) as error:
         return _Ending(exit_codes.BROKEN, f"given up: {error}")
-    except OtherInstallationError as error:
+    except (BadCandidateError, OtherInstallationError) as error:
         return _Ending(exit_codes.USAGE, str(error))
     except ClusterError as error:
         return _Ending(exit_codes.BROKEN_OFF, str(error))

@@ -146,7 +146,9 @@ class Campaign:
         return bool(self._waiting)
 
     def _next(self) -> Task | None:
-        if self._suspects:  # one at a time, so that who ends its process does so alone
+        if any(self._losses[task] for task in self._waiting.values()):
+            return None  # who ends its process is to do so alone
+        if self._suspects:
             return None if self._waiting else self._suspects.popleft()
         if self._spots:
             return self._spots.popleft()

@@ -141,6 +141,25 @@ def test_a_task_that_ends_whoever_works_on_it_ends_the_campaign(tmp_path: Path) 
     assert [number for number in range(4) if number in journal.tally] == [0, 1, 3]
 
 
+class Slow(Careless):
+    """Finishes nothing."""
+
+    def submit(self, task: Callable[..., Any], /, *args: Any) -> Future[Any]:
+        """Take a task, and leave it."""
+        return Future()
+
+
+def test_a_suspect_is_alone(tmp_path: Path) -> None:
+    """Tasks that have lost who worked on them are tried one by one: then it is known which one it is."""
+    journal = SoakJournal(tmp_path / "journal.jsonl", identity(engine("Right")), resume=False)
+    campaign = Campaign(plan(tmp_path, engine("Right")), Slow(), journal, [].append)
+    for number in (0, 1):
+        campaign._lose(Shard(number), GoneError())
+    for _ in range(2):
+        assert campaign._submit()
+        assert list(campaign._waiting.values()) == [Shard(0)]
+
+
 def test_who_answers_nothing_is_not_asked_on(tmp_path: Path) -> None:
     """After a shard without an answer."""
     with pytest.raises(NoAnswersError, match=r"^no answer to anything in shard 0: .* failed: out of order"):

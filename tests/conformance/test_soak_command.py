@@ -86,6 +86,12 @@ def test_an_engine_that_does_not_stop_properly_is_broken(
     assert f"  {command} does not stop properly: " in capsys.readouterr().out
 
 
+def test_an_engine_that_cannot_be_made_is_told(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    """Its factory is there, so it is found out when the first shard is begun."""
+    assert soak(tmp_path, "mod:modules_under_test:failing") == exit_codes.USAGE
+    assert "OSError: no licence" in capsys.readouterr().out
+
+
 def test_a_silent_engine_is_broken(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     """It is not asked on."""
     assert soak(tmp_path, engine("Silent")) == exit_codes.BROKEN
