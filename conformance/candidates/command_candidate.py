@@ -10,7 +10,7 @@ from conformance.candidates.registry import COMMAND_PREFIX
 from conformance.protocol.features import undeclared
 from conformance.protocol.process import CommandError, ProcessStartError, split_command
 from conformance.protocol.replies import BadReplyError, outcome_of
-from conformance.protocol.scenes import SceneSlots, run_message, scene_message
+from conformance.protocol.scenes import SceneSlots, run_line, scene_line
 from conformance.protocol.session import READ_SECONDS, EngineTroubleError, Session
 from conformance.query import Errored, Skipped
 
@@ -150,6 +150,7 @@ class CommandCandidate:
                 self._send(session, query)
             else:
                 self._conclude(query, refusal)
+        session.flush()
 
     def _send(self, session: Session, query: Query) -> None:
         scene, is_new = self._slots.find(query)
@@ -159,13 +160,13 @@ class CommandCandidate:
             self._conclude(query, scene.refused)
             return
         seq = session.number()
-        session.send(run_message(query, scene, seq, session.capabilities.floats))
+        session.send(run_line(query, scene, seq, session.capabilities.floats))
         self._sent.append(_Sent(seq, scene, query))
 
     def _send_scene(self, session: Session, scene: HeldScene) -> None:
         seq = session.number()
         try:
-            session.send(scene_message(scene, seq, session.capabilities.floats))
+            session.send(scene_line(scene, seq, session.capabilities.floats))
         except RecursionError:
             scene.refused = Errored("its scene: a tree that is nested too deeply for a JSON message")
         else:

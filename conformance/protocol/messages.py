@@ -110,4 +110,9 @@ def line_of(message: dict[str, Any]) -> bytes:
     RecursionError
         If it is nested too deeply for JSON.
     """
-    return _ENCODER.encode(message).encode("utf-8") + b"\n"
+    return json_text(message).encode("utf-8") + b"\n"
+
+
+def json_text(value: Any) -> str:
+    """Write a message, or a part of one, without a blank in it; raises like `line_of`."""
+    return _ENCODER.encode(value)

@@ -61,6 +61,7 @@ class EngineProcess:
         self._process = _spawn(command)
         self._lines: queue.Queue[bytes] = queue.Queue(_MOST_WAITING)
         self._outgoing: queue.SimpleQueue[bytes | None] = queue.SimpleQueue()
+        self._unsent: list[bytes] = []
         self._log = bytearray()
         self._reader = _thread(_read_lines, self._process.stdout, self._lines)
         self._logger = _thread(_read_log, self._process.stderr, self._log)
@@ -69,7 +70,13 @@ class EngineProcess:
 
     def send(self, line: bytes) -> None:
         """Write a line, some time; if the engine is gone, its end is noticed by `receive`."""
-        self._outgoing.put(line)
+        self._unsent.append(line)
+
+    def flush(self) -> None:
+        """Write what was sent: many lines at once, as each write wakes a thread and the engine."""
+        if self._unsent:
+            self._outgoing.put(b"".join(self._unsent))
+            self._unsent.clear()
 
     def receive(self, seconds: float) -> bytes:
         """Return the next line that the engine writes, or nothing if it has ended.
@@ -79,6 +86,7 @@ class EngineProcess:
         ReadTimeoutError
             If it writes none in time.
         """
+        self.flush()
         try:
             line = self._lines.get(timeout=seconds)
         except queue.Empty:
@@ -89,6 +97,7 @@ class EngineProcess:
 
     def close_input(self) -> None:
         """Let the engine see the end of its stdin, after what was sent."""
+        self.flush()
         self._outgoing.put(None)
 
     def wait(self, seconds: float) -> int | None:
@@ -184,10 +193,9 @@ def _read_log(stderr: IO[bytes], log: bytearray) -> None:
 
 def _write_lines(stdin: IO[bytes], outgoing: queue.SimpleQueue[bytes | None]) -> None:
     with contextlib.suppress(OSError), stdin:  # a broken pipe: the reader sees how the engine ended
-        while (line := outgoing.get()) is not None:
-            stdin.write(line)
-            if outgoing.empty():
-                stdin.flush()
+        while (lines := outgoing.get()) is not None:
+            stdin.write(lines)
+            stdin.flush()
 
 
 def _kill_tree(process: subprocess.Popen[bytes]) -> None:

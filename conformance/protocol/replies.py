@@ -3,12 +3,15 @@
 from __future__ import annotations
 
 import json
-from typing import Any, Final
+from typing import TYPE_CHECKING, Any, Final
 
 from conformance.fields import FieldError
-from conformance.protocol.dialects import Dialect, read_outputs
 from conformance.protocol.messages import MOST_BYTES
+from conformance.protocol.readers import read_outputs
 from conformance.query import Errored, Outcome, Result, Skipped
+
+if TYPE_CHECKING:
+    from conformance.protocol.dialects import Dialect
 
 _BODIES: Final = ("result", "skipped", "errored")
 _MOST_SHOWN: Final = 120
@@ -116,14 +119,14 @@ def _check_sequence(reply: dict[str, Any], seq: int, line: bytes) -> None:
 
 
 def _check_body(name: str, body: Any) -> None:
-    found = f"{name}: {_cut(repr(body))}"
-    if name == "result":
-        if not isinstance(body, dict):
-            raise BadReplyError(found, "result: an object")
-        return
     key = "reason" if name == "skipped" else "context"
-    if not isinstance(body, dict) or set(body) != {key} or not isinstance(body[key], str):
-        raise BadReplyError(found, f'{name}: {{"{key}": a text}}')
+    if name == "result":
+        right, expected = isinstance(body, dict), "result: an object"
+    else:
+        right = isinstance(body, dict) and set(body) == {key} and isinstance(body[key], str)
+        expected = f'{name}: {{"{key}": a text}}'
+    if not right:
+        raise BadReplyError(f"{name}: {_cut(repr(body))}", expected)
 
 
 def _example(seq: int) -> str:

@@ -7,7 +7,8 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any, Final
 from weakref import WeakKeyDictionary
 
-from conformance.protocol.dialects import write_inputs
+from conformance.protocol.messages import json_text
+from conformance.protocol.writing import inputs_text
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
@@ -22,8 +23,8 @@ KEPT_SCENES: Final = 256
 _UNNAMED: Final = "world"
 """What a world that has no name is called in messages."""
 
-_RECORDS: Final[WeakKeyDictionary[Geometry, dict[Dialect, dict[str, Any]]]] = WeakKeyDictionary()
-"""The records of the geometry that was sent, as long as it is in use."""
+_RECORDS: Final[WeakKeyDictionary[Geometry, dict[Dialect, str]]] = WeakKeyDictionary()
+"""The records of the geometry that was sent, as JSON without the opening brace, as long as it is in use."""
 
 
 @dataclass(slots=True)
@@ -76,35 +77,46 @@ class SceneSlots:
         return self._held.popitem(last=False)[1].id
 
 
-def scene_message(scene: HeldScene, seq: int, dialect: Dialect) -> dict[str, Any]:
-    """Write the message that gives a scene to an engine."""
-    records = [{**_written(geometry, dialect), "name": name} for name, geometry in scene.geometries.items()]
-    message = {"cmd": "scene", "seq": seq, "id": scene.id, "geometries": records}
+def scene_line(scene: HeldScene, seq: int, dialect: Dialect) -> bytes:
+    """Write the message that gives a scene to an engine.
+
+    Geometry is most of it, and the same in many scenes (a case's poses): it is put in as text.
+
+    Raises
+    ------
+    RecursionError
+        If its trees are nested too deeply for JSON.
+    """
+    head = json_text({"cmd": "scene", "seq": seq, "id": scene.id})[:-1]
+    geometries = ",".join(_named(name, geometry, dialect) for name, geometry in scene.geometries.items())
+    world = ""
     if scene.world is not None:
-        world = {"name": world_name(scene.world), **scene.world}
-        message["world"] = write_inputs(world, dialect)
-    return message
+        named = {"name": world_name(scene.world), **scene.world}
+        world = f',"world":{inputs_text(named, dialect)}'
+    return f'{head},"geometries":[{geometries}]{world}}}\n'.encode()
 
 
-def _written(geometry: Geometry, dialect: Dialect) -> dict[str, Any]:
-    """Return the record of a geometry, which many scenes may have, written once."""
+def _named(name: str, geometry: Geometry, dialect: Dialect) -> str:
+    """Write the record of a geometry, which scenes may call by different names."""
     known = _RECORDS.setdefault(geometry, {})
     if dialect not in known:
-        known[dialect] = write_inputs(geometry.to_record(), dialect)
-    return known[dialect]
+        record = geometry.to_record()
+        del record["name"]
+        known[dialect] = inputs_text(record, dialect)[1:]
+    return f"{json_text({'name': name})[:-1]},{known[dialect]}"
 
 
-def run_message(query: Query, scene: HeldScene | None, seq: int, dialect: Dialect) -> dict[str, Any]:
+def run_line(query: Query, scene: HeldScene | None, seq: int, dialect: Dialect) -> bytes:
     """Write the message that asks a query; its world is named."""
     inputs = dict(query.inputs)
     if "world" in inputs:
         inputs["world"] = world_name(inputs["world"])
-    message = {"cmd": "run", "seq": seq, "op": query.op, "inputs": write_inputs(inputs, dialect)}
+    message = {"cmd": "run", "seq": seq, "op": query.op}
     if scene is not None:
         message["scene"] = scene.id
     if query.label:
         message["label"] = query.label
-    return message
+    return f'{json_text(message)[:-1]},"inputs":{inputs_text(inputs, dialect)}}}\n'.encode()
 
 
 def world_name(world: Mapping[str, Any]) -> str:

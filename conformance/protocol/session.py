@@ -66,9 +66,13 @@ class Session:
         self._next += 1
         return self._next - 1
 
-    def send(self, message: dict[str, Any]) -> None:
-        """Send a message; raises RecursionError if it is nested too deeply, and then nothing is sent."""
-        self._process.send(line_of(message))
+    def send(self, line: bytes) -> None:
+        """Send a message, at the latest when a reply is awaited."""
+        self._process.send(line)
+
+    def flush(self) -> None:
+        """Let the engine begin with what was sent."""
+        self._process.flush()
 
     def receive(self, seq: int, *, reads: int = 1) -> dict[str, Any]:
         """Return the reply to a message; raises `EngineTroubleError`."""
@@ -93,7 +97,7 @@ class Session:
     def stop(self) -> None:
         """Ask the engine to stop, and see that it does; raises `EngineTroubleError`."""
         seq = self.number()
-        self.send({"cmd": "stop", "seq": seq})
+        self.send(line_of({"cmd": "stop", "seq": seq}))
         try:
             if "result" not in self.receive(seq):
                 raise self.trouble("the engine does not stop when it is asked to")
@@ -120,7 +124,7 @@ class Session:
 
     def _introduced(self) -> Capabilities:
         seq = self.number()
-        self.send({"cmd": "start", "seq": seq, "version": VERSION, "floats": list(DIALECTS)})
+        self.send(line_of({"cmd": "start", "seq": seq, "version": VERSION, "floats": list(DIALECTS)}))
         try:
             reply = self.receive(seq, reads=START_READS)
         except EngineTroubleError as error:

@@ -9,10 +9,11 @@ from typing import TYPE_CHECKING, Final, Self
 
 from conformance.compare import differences
 from conformance.protocol.dialects import write_outputs
+from conformance.protocol.messages import line_of
 from conformance.protocol.probes import VECTORS, find_probes
 from conformance.protocol.process import CommandError, EngineProcess, ProcessStartError, ReadTimeoutError
 from conformance.protocol.replies import BadReplyError, outcome_of
-from conformance.protocol.scenes import HeldScene, SceneSlots, run_message, scene_message
+from conformance.protocol.scenes import HeldScene, SceneSlots, run_line, scene_line
 from conformance.protocol.session import EngineTroubleError, Session
 from conformance.query import Errored, Result, Skipped
 from conformance.report.text import summary_line
@@ -218,7 +219,7 @@ class _Examination:
 
     def _unknown_operation(self) -> Iterator[Finding]:
         seq = self._session.number()
-        self._session.send({"cmd": "run", "seq": seq, "op": _UNKNOWN_OP, "inputs": {}})
+        self._session.send(line_of({"cmd": "run", "seq": seq, "op": _UNKNOWN_OP, "inputs": {}}))
         reply = self._session.receive(seq)
         if "result" in reply:
             expected = f'{{"seq":{seq},"skipped":{{"reason":"no operation {_UNKNOWN_OP}"}}}}'
@@ -269,9 +270,9 @@ class _Examination:
         sent = []
         if scene is not None and is_new:
             sent.append(self._session.number())
-            self._session.send(scene_message(scene, sent[-1], dialect))
+            self._session.send(scene_line(scene, sent[-1], dialect))
         sent.append(self._session.number())
-        self._session.send(run_message(query, scene, sent[-1], dialect))
+        self._session.send(run_line(query, scene, sent[-1], dialect))
         return sent
 
     def _example(self, record: VectorRecord) -> str:

@@ -2,11 +2,12 @@
 
 from __future__ import annotations
 
+import json
 from dataclasses import replace
 
 from shipped_vectors import one_of_each
 
-from conformance.protocol.scenes import KEPT_SCENES, SceneSlots, run_message, scene_message
+from conformance.protocol.scenes import KEPT_SCENES, HeldScene, SceneSlots, run_line, scene_line
 from conformance.query import Query
 from conformance.scenes.model import Geometry
 
@@ -36,7 +37,12 @@ def test_nothing_is_sent_where_nothing_is_needed() -> None:
     """An operation on numbers has no scene."""
     query = Query("block_offset", {"from_cell": 1, "to_cell": 1})
     assert SceneSlots().find(query) == (None, False)
-    assert "scene" not in run_message(query, None, 1, "decimal")
+    assert json.loads(run_line(query, None, 1, "decimal")) == {
+        "cmd": "run",
+        "seq": 1,
+        "op": "block_offset",
+        "inputs": {"from_cell": 1, "to_cell": 1},
+    }
 
 
 def test_the_scene_that_was_not_used_longest_is_replaced() -> None:
@@ -65,9 +71,22 @@ def test_a_message_holds_the_records_of_vector_files() -> None:
     slots = SceneSlots()
     scene, _ = slots.find(WORLD_QUERY)
     assert scene is not None
-    message = scene_message(scene, 1, "decimal")
+    message = json.loads(scene_line(scene, 1, "decimal"))
     assert [record["name"] for record in message["geometries"]] == list(WORLD_QUERY.geometries)
     geometry = Geometry.from_record(message["geometries"][0])
     assert geometry.vertices == WORLD_QUERY.geometries[geometry.name].vertices
     assert message["world"]["name"] == WORLD_QUERY.inputs["world"]["name"]
-    assert run_message(WORLD_QUERY, scene, 2, "decimal")["inputs"]["world"] == message["world"]["name"]
+    assert (
+        json.loads(run_line(WORLD_QUERY, scene, 2, "decimal"))["inputs"]["world"] == message["world"]["name"]
+    )
+
+
+def test_geometry_is_written_once_and_named_where_it_is_used() -> None:
+    """Two scenes that call it by different names send the same record under each."""
+    name, geometry = next(iter(QUERY.geometries.items()))
+    lines = [
+        scene_line(HeldScene("s0", {called: geometry}, None), 1, "hex") for called in (name, 'the "floor"')
+    ]
+    first, second = (json.loads(line)["geometries"][0] for line in lines)
+    assert (first.pop("name"), second.pop("name")) == (name, 'the "floor"')
+    assert first == second

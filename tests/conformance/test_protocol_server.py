@@ -17,7 +17,7 @@ from conformance.outputs import OUTPUTS
 from conformance.protocol.dialects import DIALECTS
 from conformance.protocol.messages import line_of
 from conformance.protocol.replies import outcome_of, read_reply
-from conformance.protocol.scenes import SceneSlots, run_message, scene_message
+from conformance.protocol.scenes import SceneSlots, run_line, scene_line
 from conformance.protocol.server import Server
 from conformance.protocol.session import read_capabilities
 from conformance.query import Errored, Result, Skipped
@@ -31,7 +31,7 @@ SECONDS = 600.0
 """An engine may have to compile its kernels first."""
 
 
-def served(*messages: object, dialect: Dialect = "decimal") -> list[dict[str, Any]]:
+def served(*messages: dict[str, Any] | bytes, dialect: Dialect = "decimal") -> list[dict[str, Any]]:
     """Return the replies to messages, or to lines that are none."""
     lines = [message if isinstance(message, bytes) else line_of(message) for message in messages]
     replies = io.BytesIO()
@@ -49,12 +49,13 @@ def context(reply: dict[str, Any]) -> str:
 @pytest.mark.parametrize("dialect", DIALECTS)
 def test_every_operation_is_answered_as_in_process(dialect: Dialect) -> None:
     """Of each operation and outcome one record, on every bit."""
-    slots, messages, asked = SceneSlots(), [START], []
+    slots, asked = SceneSlots(), []
+    messages: list[dict[str, object] | bytes] = [START]
     for record in one_of_each():
         scene, is_new = slots.find(record.query)
         if scene is not None and is_new:
-            messages.append(scene_message(scene, len(messages), dialect))
-        messages.append(run_message(record.query, scene, len(messages), dialect))
+            messages.append(scene_line(scene, len(messages), dialect))
+        messages.append(run_line(record.query, scene, len(messages), dialect))
         asked.append((len(messages) - 1, record.query))
     replies = served(*messages, dialect=dialect)
     assert [reply["seq"] for reply in replies] == list(range(len(messages)))
