@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Final, TypeVar
 import numpy as np
 
 from conformance.bench.contests import Contest, contests_of
+from conformance.bench.messages import measure_messages
 from conformance.bench.native.compiler import NoCompilerError
 from conformance.bench.native_jobs import Native
 from conformance.bench.peers import MODULES
@@ -16,6 +17,7 @@ from conformance.bench.scaling import Scaling
 from conformance.bench.scenes import REAL, make_scene, real_scenes
 from conformance.bench.settings import SECTIONS
 from conformance.bench.timing import DisagreementError
+from conformance.loader import load_paths
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterator
@@ -26,7 +28,7 @@ if TYPE_CHECKING:
 
 T = TypeVar("T")
 
-_SCENE_SECTIONS: Final = tuple(section for section in SECTIONS if section != "scaling")
+_SCENE_SECTIONS: Final = tuple(section for section in SECTIONS if section not in {"scaling", "messages"})
 
 
 def measure(settings: Settings, report: Report, say: Callable[[str], None]) -> None:
@@ -59,6 +61,10 @@ def measure(settings: Settings, report: Report, say: Callable[[str], None]) -> N
         for name, curve in Scaling(settings, report, rng).curves():
             say(name)
             _attempt(report, name, lambda measure_it: measure_it(), curve)
+    if "messages" in settings.sections:
+        say("messages: reading cases")
+        cases, rounds = load_paths().cases[:: settings.case_step], settings.rounds // 2 + 1
+        _attempt(report, "messages", lambda chosen: measure_messages(chosen, rounds, report, say), cases)
 
 
 def _attempt(report: Report, name: str, perform: Callable[[T], None], subject: T) -> None:

@@ -16,7 +16,9 @@ BATCHES: Final = (1, 100, 10_000)
 LARGE: Final = 10_000
 """The batch in which the engine meets everybody else."""
 THREADS: Final = 2
-SECTIONS: Final = ("oracle", "native", "noise", "plans", "threads", "peers", "precision", "scaling")
+SECTIONS: Final = (
+    *("oracle", "native", "noise", "plans", "threads", "peers", "precision", "scaling", "messages"),
+)
 """What can be asked for alone."""
 
 
@@ -40,6 +42,8 @@ class Settings:
         Operation to the queries of a round beside the oracle.
     grids : tuple of (int, int)
         Rooms along x and y of the scenes of the scaling curves.
+    case_step : int
+        Of so many cases one is judged over the protocol, in half as many rounds.
     fixtures : Path or None
         Folder of real cells.
     """
@@ -51,6 +55,7 @@ class Settings:
     fast_rounds: int
     sizes: Mapping[str, int]
     grids: tuple[tuple[int, int], ...]
+    case_step: int
     fixtures: Path | None = field(default=None)
 
 
@@ -76,6 +81,7 @@ def quick(seed: int, sections: tuple[str, ...], fixtures: Path | None) -> Settin
         fast_rounds=11,
         sizes=QUICK_SIZES,
         grids=((2, 1), (3, 3), (6, 6)),
+        case_step=48,
         fixtures=fixtures,
     )
 
@@ -90,5 +96,6 @@ def full(seed: int, sections: tuple[str, ...], fixtures: Path | None) -> Setting
         fast_rounds=31,
         sizes=FULL_SIZES,
         grids=((2, 1), (4, 4), (7, 7), (12, 12), (22, 22), (38, 38)),
+        case_step=12,
         fixtures=fixtures,
     )

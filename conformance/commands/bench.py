@@ -23,6 +23,7 @@ EXAMPLES: Final = (
     "conformance bench --native --peers --json bench.json --plots docs/bench",
     "conformance bench --only native --seed 7",
     "conformance bench --only scaling --plots plots/",
+    "conformance bench --only messages",
 )
 _METHOD: Final = """\
 Implementations take turns at the same new random queries in one process; answers are compared before times
@@ -51,7 +52,7 @@ def configure(parser: argparse.ArgumentParser) -> None:
         action="append",
         default=[],
         metavar="SECTION",
-        help="oracle, native, noise, plans, threads, peers, precision or scaling alone (repeatable)",
+        help="oracle, native, noise, plans, threads, peers, precision, scaling or messages (repeatable)",
     )
     options.add_argument("--seed", type=int, metavar="N", help="of all random points (default: a new one)")
     options.add_argument("--fixtures", type=Path, metavar="DIR", help="folder of real cells (Holtburg)")

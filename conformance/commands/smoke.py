@@ -3,9 +3,6 @@
 from __future__ import annotations
 
 import argparse
-import shlex
-import subprocess
-import sys
 from typing import TYPE_CHECKING, Final
 
 from conformance import exit_codes
@@ -65,11 +62,13 @@ def run(args: argparse.Namespace) -> int:
 
 def _command(words: list[str]) -> str:
     """Return the command as one text; a single word may be a whole command already."""
+    from conformance.protocol.process import command_line
+
     if not words:
         raise UsageError("found no command, expected the engine's, as in `conformance smoke ./my-engine`")
     if len(words) == 1:
         return words[0].removeprefix(_PREFIX)
-    return subprocess.list2cmdline(words) if sys.platform == "win32" else shlex.join(words)
+    return command_line(words)
 
 
 def _print(console: Console, finding: Finding) -> None:

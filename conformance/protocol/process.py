@@ -20,7 +20,7 @@ from typing import IO, TYPE_CHECKING, Final
 from conformance.protocol.messages import MOST_BYTES
 
 if TYPE_CHECKING:
-    from collections.abc import Callable
+    from collections.abc import Callable, Sequence
 
 _MOST_WAITING: Final = 16
 """Lines of the engine that wait to be read; an engine that writes more has to wait itself."""
@@ -138,6 +138,11 @@ def split_command(command: str) -> list[str] | str:
         return command if sys.platform == "win32" else shlex.split(command)
     except ValueError as error:
         raise CommandError(f"{command!r}: {error}") from None
+
+
+def command_line(words: Sequence[str]) -> str:
+    """Return words as one command, as `split_command` takes it on this platform."""
+    return subprocess.list2cmdline(words) if sys.platform == "win32" else shlex.join(words)
 
 
 def describe_exit(status: int | None) -> str:

@@ -25,6 +25,7 @@ if TYPE_CHECKING:
 
     from conformance.candidates.base import Candidate
     from conformance.protocol.dialects import Dialect
+    from conformance.query import Outcome
 
 _DISTRIBUTION: Final = "retail-conformance"
 
@@ -118,16 +119,20 @@ class Server:
         held = _NOTHING if message.scene is None else self._scenes[message.scene]
         record = {"op": message.op, **self._read(message.inputs)}
         query = query_from_record(record, held.geometries, worlds=held.worlds, label=message.label)
-        outcome = self._candidate.answer(query)
-        if isinstance(outcome, Result):
-            return {"result": write_outputs(message.op, outcome.fields, self._dialect)}
-        if isinstance(outcome, Skipped):
-            return {"skipped": {"reason": outcome.reason}}
-        return _errored(outcome.context)
+        return outcome_body(message.op, self._candidate.answer(query), self._dialect)
 
     def _read(self, record: dict[str, Any]) -> dict[str, Any]:
         read: dict[str, Any] = read_bits(record) if self._dialect == "hex" else record
         return read
+
+
+def outcome_body(op: str, outcome: Outcome, dialect: Dialect) -> dict[str, Any]:
+    """Return the body of the reply that tells an outcome."""
+    if isinstance(outcome, Result):
+        return {"result": write_outputs(op, outcome.fields, dialect)}
+    if isinstance(outcome, Skipped):
+        return {"skipped": {"reason": outcome.reason}}
+    return _errored(outcome.context)
 
 
 def _errored(context: str) -> dict[str, Any]:

@@ -2,11 +2,11 @@
 
 from __future__ import annotations
 
-import subprocess
 import sys
 from pathlib import Path
 
 from conformance.candidates.command_candidate import CommandCandidate
+from conformance.protocol.process import command_line
 from conformance.query import Query, Result
 
 ENGINE = Path(__file__).with_name("faux_engine.py")
@@ -19,10 +19,7 @@ SECONDS = 20.0
 
 def command_of(*words: object) -> str:
     """Return words as one command line of this platform."""
-    import shlex
-
-    texts = [str(word) for word in words]
-    return subprocess.list2cmdline(texts) if sys.platform == "win32" else shlex.join(texts)
+    return command_line([str(word) for word in words])
 
 
 def faux_command(mode: str, *at: int) -> str:
