@@ -29,7 +29,7 @@ class LayoutError(ValueError):
     def __init__(self, name: str) -> None:
         super().__init__(
             f"{name}: laid out anew it would say something else (does an anchor come behind its alias,"
-            " or is the case written with braces?)"
+            " is the case written with braces, or with tabs?)"
         )
 
 
@@ -58,11 +58,13 @@ def lay_out(raw: bytes, name: str) -> str:
     Raises
     ------
     YamlError
-        It cannot be read.
+        It cannot be read, or something in it was refused.
     LayoutError
         Then it would say something else, because an anchor comes behind an alias of it, for instance.
     """
     document = parse(raw, name)
+    if document.refusals:
+        raise YamlError(document.refusals[0][1])
     ordered = "\n".join(_in_order(document))
     text = "".join(f"{line}\n" for line in _spaced(ordered, _same(document, ordered, name)))
     _same(document, text, name)
@@ -75,7 +77,7 @@ def _same(document: Document, text: str, name: str) -> Document:
         again = parse(text.encode("utf-8"), name)
     except YamlError as error:
         raise LayoutError(name) from error
-    if again.data != document.data or len(again.refusals) != len(document.refusals):
+    if again.data != document.data or again.refusals:
         raise LayoutError(name)
     return again
 
@@ -94,7 +96,7 @@ def _in_order(document: Document) -> list[str]:
 def _cases(document: Document) -> Iterator[tuple[DocPath, int]]:
     """Yield the way to each case, and the number of its last line."""
     data = document.data
-    if not isinstance(data, dict):
+    if not isinstance(data, dict) or not data:
         return
     last = len(document.lines)
     if not isinstance(data.get(_CASES), list):
@@ -156,7 +158,7 @@ def _is_aside(line: str) -> bool:
 def _spaced(text: str, document: Document) -> list[str]:
     """Return the lines of a document with even spacing; texts of several lines are kept as they are."""
     lines = split_lines(text)
-    kept = _inside_texts(text)
+    kept = _inside_texts(text, document.file)
     items = [document.first_line(path) for path, _ in _cases(document)]
     heads = {_lead(lines, number) for number in items[1:]}
     spaced: list[str] = []
@@ -175,13 +177,19 @@ def _spaced(text: str, document: Document) -> list[str]:
     return spaced
 
 
-def _inside_texts(text: str) -> set[int]:
-    """Return the indices of the lines that texts of several lines have behind their first one."""
+def _inside_texts(text: str, name: str) -> set[int]:
+    """Return the indices of the lines that texts of several lines have behind their first one.
+
+    Only PyYAML's own parser tells where they end; it refuses some tabs and marks that libyaml reads.
+    """
     inside: set[int] = set()
     events: Iterator[Any] = iter(yaml.parse(text, Loader=yaml.SafeLoader))
-    for event in events:
-        if isinstance(event, yaml.ScalarEvent):
-            first: Any = event.start_mark
-            last: Any = event.end_mark
-            inside |= set(range(first.line + 1, last.line + (last.column > 0)))
+    try:
+        for event in events:
+            if isinstance(event, yaml.ScalarEvent):
+                first: Any = event.start_mark
+                last: Any = event.end_mark
+                inside |= set(range(first.line + 1, last.line + (last.column > 0)))
+    except yaml.YAMLError as error:
+        raise LayoutError(name) from error
     return inside

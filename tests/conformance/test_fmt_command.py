@@ -11,7 +11,7 @@ from hypothesis import strategies as st
 from conformance import cli, exit_codes
 from conformance.life.layout import ORDER, LayoutError, lay_out
 from conformance.loader import BUILT_IN_CASES, case_files
-from conformance.yaml_source import parse
+from conformance.yaml_source import YamlError, parse
 
 if TYPE_CHECKING:
     from pathlib import Path
@@ -164,3 +164,31 @@ def test_a_folder_without_cases_is_a_usage_error(tmp_path: Path, capsys: pytest.
     """Exit code 2."""
     assert cli.main(["fmt", str(tmp_path)]) == exit_codes.USAGE
     assert "no *.yaml file" in capsys.readouterr().err
+
+
+@pytest.mark.parametrize(
+    ("raw", "said"),
+    [
+        (b"id: a\nid: b\n", "f:2:1 the key 'id' a second time"),
+        (b"id: !!python/name:os.system x\n", "f:1:5 the tag"),
+        (b"id: &a [*a]\n", "f:1:9 the alias *a inside its own value"),
+    ],
+    ids=("twice", "tag", "cyclic"),
+)
+def test_what_was_refused_is_not_laid_out(raw: bytes, said: str) -> None:
+    """The file does not say what is meant, so there is nothing to keep; the place is told."""
+    with pytest.raises(YamlError) as caught:
+        lay_out(raw, "f")
+    problem = caught.value.problem
+    assert f"{problem.location} {problem.found}".startswith(said)
+
+
+def test_what_only_one_parser_reads_is_left_as_it_is() -> None:
+    """Libyaml passes over a tab behind a word, PyYAML's own parser does not."""
+    with pytest.raises((LayoutError, YamlError)):
+        lay_out(b"id: a\t\nwhy: b\n", "f")
+
+
+def test_an_empty_mapping_has_no_case() -> None:
+    """There are no keys to be put in order."""
+    assert lay_out(b"{}\n", "f") == "{}\n"
