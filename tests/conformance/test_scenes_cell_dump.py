@@ -81,6 +81,14 @@ def test_folder(tmp_path: Path) -> None:
     assert (list(folder.cells), list(folder.objects)) == ([0xA9B40151], ["0x01000A2B"])
 
 
+def test_folder_with_a_cell_twice(tmp_path: Path) -> None:
+    """A file that is not called after what it holds is refused, so that no id is there twice."""
+    written(tmp_path, CELL)
+    written(tmp_path, CELL, "0xA9B40152.json")
+    with pytest.raises(DumpError, match=r"0xA9B40152\.json: found 0xA9B40151 in a file of another name"):
+        load_folder(tmp_path)
+
+
 @pytest.mark.parametrize(("name", "found"), [("", "no dump"), ("absent", "no such folder")])
 def test_folder_without_dumps(tmp_path: Path, name: str, found: str) -> None:
     """An empty or absent folder is an error, not an empty answer."""
@@ -107,6 +115,8 @@ def without(key: str) -> dict[str, Any]:
         (without("polygons"), "", "no 'polygons'"),
         ({**CELL, "cell": 5}, "cell", "int 5"),
         ({**CELL, "cell": "cellar"}, "cell", "'cellar'"),
+        ({**CELL, "cell": "-0x1"}, "cell", "'-0x1'"),
+        ({**CELL, "cell": "9" * 6000}, "cell", f"'{'9' * 40}'"),
         ({**CELL, "origin": [0, 0]}, "origin", "2 numbers"),
         ({**CELL, "origin": [0, 0, "94"]}, "origin[2]", "str '94'"),
         (
@@ -156,10 +166,15 @@ def test_truncated_json(tmp_path: Path, text: bytes, line: int, column: int) -> 
         (b'{"origin": [NaN, 0, 0]}', "NaN"),
         (b'{"origin": [1e999, 0, 0]}', "1e999"),
         (b'{"cell": "\xff"}', "byte 0xff at offset 10"),
+        (b'{"origin": [' + b"9" * 5000 + b", 0, 0]}", "a number of 5000 digits"),
+        (b"[" * 100_000, "lists or objects nested too deeply"),
+        (b'{"cell": "0xA9B40151", "cell": "0xA9B40152"}', "the key 'cell' twice in an object"),
+        (b" " * ((1 << 24) + 1), "more than 16777216 bytes"),
     ],
+    ids=("nan", "infinite", "encoding", "digits", "nested", "twice", "long"),
 )
-def test_text_that_holds_no_numbers(tmp_path: Path, text: bytes, found: str) -> None:
-    """NaN, infinities and bytes that are not UTF-8 are refused."""
+def test_text_that_no_dump_holds(tmp_path: Path, text: bytes, found: str) -> None:
+    """NaN, infinities, bytes that are not UTF-8, and what is too long or too deep are refused."""
     file = tmp_path / "0xA9B40151.json"
     file.write_bytes(text)
     with pytest.raises(DumpError) as raised:

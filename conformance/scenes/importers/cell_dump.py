@@ -7,13 +7,14 @@ A cell file holds ``cell``, ``rotation_rows`` (row vectors: ``world = local * ro
 
 from __future__ import annotations
 
+import re
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any, Final, TypeVar
 
 from conformance.scenes.algebra import dot, round_point
 from conformance.scenes.bsp_builder import TreeStyle, build
 from conformance.scenes.errors import SceneError
-from conformance.scenes.importers.dump_json import DumpError, read_json
+from conformance.scenes.importers.dump_json import MAX_DIGITS, DumpError, read_json
 from conformance.scenes.model import Cell, Geometry, Pose
 from conformance.scenes.planes import unit_normal
 from conformance.scenes.readers import each, floats_of, member, text, whole
@@ -31,6 +32,7 @@ T = TypeVar("T")
 CELL_FILES: Final = "0x????????.json"
 OBJECT_FILES: Final = "0x????????.gfxobj.json"
 
+_ID: Final = re.compile("0x[0-9a-fA-F]{8}")
 OUTDOORS: Final = 0xFFFF
 """What a portal to the landscape has in place of a cell; `read_cell` leaves such portals out."""
 LANDBLOCK: Final = 0xFFFF0000
@@ -63,15 +65,32 @@ def load_folder(folder: Path) -> DumpFolder:
     Raises
     ------
     DumpError
-        There is no such folder, no dump in it, or one that cannot be read.
+        There is no such folder, no dump in it, or one that cannot be read or is not called after its id.
     """
-    cells = [read_cell(file) for file in sorted(folder.glob(CELL_FILES))]
-    objects = [read_object(file) for file in sorted(folder.glob(OBJECT_FILES))]
+    cells = [_named(file, cell, cell.id) for file, cell in _read_all(folder, CELL_FILES, read_cell)]
+    objects = [
+        _named(file, shape, int(shape.name, 16))
+        for file, shape in _read_all(folder, OBJECT_FILES, read_object)
+    ]
     if not cells and not objects:
         expected = f"files named {CELL_FILES} or {OBJECT_FILES}"
         found = "no dump" if folder.is_dir() else "no such folder"
         raise DumpError(str(folder), SceneError("", found, expected))
     return DumpFolder({cell.id: cell for cell in cells}, {shape.name: shape for shape in objects})
+
+
+def _read_all(folder: Path, pattern: str, read: Callable[[Path], T]) -> list[tuple[Path, T]]:
+    return [(file, read(file)) for file in sorted(folder.glob(pattern))]
+
+
+def _named(file: Path, dump: T, own_id: int) -> T:
+    """Return a dump whose file is called after it, so that no id is there twice."""
+    if file.name.partition(".")[0].upper() != f"0X{own_id:08X}":
+        wrong = SceneError(
+            "", f"0x{own_id:08X} in a file of another name", "each dump in a file of its own id"
+        )
+        raise DumpError(str(file), wrong)
+    return dump
 
 
 def read_cell(file: Path) -> Cell:
@@ -160,7 +179,6 @@ def _other_cell(record: Any, path: str) -> int:
 
 
 def _id(written: str, path: str) -> int:
-    try:
-        return int(written, 16)
-    except ValueError:
-        raise SceneError(path, repr(written), "an id like 0xA9B40151") from None
+    if not _ID.fullmatch(written):
+        raise SceneError(path, repr(written[:MAX_DIGITS]), "an id like 0xA9B40151")
+    return int(written, 16)

@@ -82,7 +82,7 @@ def load_worlds(folder: Path) -> list[World]:
 
 
 def _cell(folder: Path, cell_id: int, dumps: DumpFolder) -> InteriorCell:
-    (file,) = [file for file in folder.glob(CELL_FILES) if int(file.stem, 16) == cell_id]
+    (file,) = [file for file in folder.glob(CELL_FILES) if file.stem.upper() == f"0X{cell_id:08X}"]
     try:
         return _interior(read_json(file), dumps.cells[cell_id])
     except SceneError as error:

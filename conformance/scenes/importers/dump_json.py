@@ -4,12 +4,17 @@ from __future__ import annotations
 
 import json
 import math
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, Final
 
 from conformance.scenes.errors import SceneError
 
 if TYPE_CHECKING:
     from pathlib import Path
+
+MAX_BYTES: Final = 1 << 24
+"""Longest dump that is read, 16 MiB: a cell of retail takes less than 1."""
+MAX_DIGITS: Final = 40
+"""Longest whole number that is read; a float32 has at most 39 digits before its point."""
 
 
 class DumpError(SceneError):
@@ -42,26 +47,55 @@ def read_json(file: Path) -> Any:
     Raises
     ------
     DumpError
-        The file is not there, not UTF-8, not JSON (with line and column), or holds a number that is none.
+        The file is not there, too long, not UTF-8, not JSON (with line and column), nested too deeply, or
+        holds a number that is none or a key twice.
     """
+    text = _read_text(file)
     try:
-        text = file.read_text(encoding="utf-8")
+        return json.loads(
+            text,
+            parse_int=_whole,
+            parse_float=_float,
+            parse_constant=_refuse,
+            object_pairs_hook=_once_each,
+        )
+    except json.JSONDecodeError as error:
+        wrong = SceneError("", error.msg, "JSON")
+        raise DumpError(str(file), wrong, error.lineno, error.colno) from error
+    except RecursionError as error:
+        wrong = SceneError("", "lists or objects nested too deeply", "a dump")
+        raise DumpError(str(file), wrong) from error
+    except SceneError as error:
+        raise DumpError(str(file), error) from error
+
+
+def _read_text(file: Path) -> str:
+    try:
+        with file.open("rb") as stream:
+            raw = stream.read(MAX_BYTES + 1)
+        if len(raw) > MAX_BYTES:
+            raise DumpError(str(file), SceneError("", f"more than {MAX_BYTES} bytes", "a shorter file"))
+        return raw.decode("utf-8")
     except OSError as error:
         reason = error.strerror or type(error).__name__
         raise DumpError(str(file), SceneError("", reason, "a readable file")) from error
     except UnicodeDecodeError as error:
         found = f"byte {error.object[error.start]:#04x} at offset {error.start}"
         raise DumpError(str(file), SceneError("", found, "UTF-8 text")) from error
-    try:
-        return json.loads(text, parse_int=_whole, parse_float=_float, parse_constant=_refuse)
-    except json.JSONDecodeError as error:
-        wrong = SceneError("", error.msg, "JSON")
-        raise DumpError(str(file), wrong, error.lineno, error.colno) from error
-    except SceneError as error:
-        raise DumpError(str(file), error) from error
+
+
+def _once_each(pairs: list[tuple[str, Any]]) -> dict[str, Any]:
+    record = dict(pairs)
+    if len(record) != len(pairs):
+        keys = [key for key, _ in pairs]
+        twice = next(key for key in keys if keys.count(key) > 1)
+        raise SceneError("", f"the key {twice!a} twice in an object", "each key once")
+    return record
 
 
 def _whole(text: str) -> int | float:
+    if len(text) > MAX_DIGITS:
+        raise SceneError("", f"a number of {len(text)} digits", f"at most {MAX_DIGITS}")
     return -0.0 if text == "-0" else int(text)
 
 
