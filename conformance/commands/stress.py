@@ -35,6 +35,8 @@ candidate is also held against retail, bit for bit, and against its error budget
 
 Exit codes: 0 all is within the budget, 1 it is not, 2 usage, 4 nothing was asked.
 """
+MOST_JOBS: Final = 64
+"""Processes at once; each takes some 300 MB, and no run has many more parts that take long."""
 _PIPED_WIDTH: Final = 200
 """Columns of the tables where no terminal says how wide it is."""
 
@@ -107,8 +109,8 @@ def _plan(args: argparse.Namespace) -> Plan:
     for name in args.family:
         if name not in FAMILIES:
             raise UsageError(f"no family {name!r}; there are {', '.join(FAMILIES)}")
-    if args.jobs < 1:
-        raise UsageError(f"--jobs {args.jobs}: at least one process is needed")
+    if not 1 <= args.jobs <= MOST_JOBS:
+        raise UsageError(f"--jobs {args.jobs}: from 1 to {MOST_JOBS} processes are possible")
     families = tuple(name for name in FAMILIES if not args.family or name in args.family)
     return Plan(_settings(args), families, Spec(args.candidate, args.read_timeout), args.jobs)
 

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Final
 import yaml
 
 from conformance.found import found_document
+from conformance.life.layout import lay_out
 from conformance.stress.findings import Worst
 
 if TYPE_CHECKING:
@@ -40,7 +41,8 @@ def worst_case(sweep: Sweep, severity: float, quantity: str, value: float, query
     text = yaml.safe_dump(
         document, sort_keys=False, default_flow_style=None, width=_WIDTH, allow_unicode=True
     )
-    return Worst(sweep.family, sweep.name, severity, quantity, value, text)
+    laid_out = lay_out(text.encode("utf-8"), document["id"])
+    return Worst(sweep.family, sweep.name, severity, quantity, value, laid_out)
 
 
 def write_worst(folder: Path, found: Iterable[Worst]) -> list[Path]:

@@ -11,6 +11,7 @@ pytest.importorskip("flint", reason="the extra `exact` is not installed")
 
 from conformance import cli, exit_codes
 from conformance.bench import plots as bench_plots
+from conformance.life.layout import lay_out
 from conformance.loader import load_paths
 from conformance.stress import runner, settings
 from conformance.stress.findings import CANDIDATE, Findings, Picture, Reading
@@ -54,6 +55,9 @@ def test_a_small_run(
     assert told["differences"] == told["failures"] == []
     out = capsys.readouterr().out
     assert "D off the true plane (m)" in out
+    for file in (tmp_path / "worst").iterdir():
+        raw = file.read_bytes()
+        assert lay_out(raw, file.name).encode("utf-8") == raw
     cases = load_paths([tmp_path / "worst"])
     assert cases.problems == ()
     assert {case.tags for case in cases.cases} == {("stress", "scale")}
@@ -105,7 +109,8 @@ def test_exit_codes_say_how_it_ended(monkeypatch: pytest.MonkeyPatch, tmp_path: 
     [
         (("--family", "translatoin"), "no family 'translatoin'; there are translation, rotation"),
         (("--seed", "-1"), "a seed is not negative"),
-        (("--jobs", "0"), "at least one process"),
+        (("--jobs", "0"), "from 1 to 64 processes"),
+        (("--jobs", "1000000000"), "from 1 to 64 processes"),
         (("--candidate", "engin"), "Did you mean 'engine'?"),
         (("--budget", "no/such.yaml"), "cannot read"),
     ],
