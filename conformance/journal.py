@@ -80,7 +80,8 @@ class JournalWriter:
 
     def write(self, record: Mapping[str, Any]) -> None:
         """Add one line."""
-        left = json.dumps(record, ensure_ascii=False).encode("utf-8") + b"\n"
+        text = json.dumps(record, ensure_ascii=False)
+        left = text.encode("utf-8", "replace") + b"\n"  # an engine may have said half a character
         while left:  # a disk that is nearly full takes a part
             left = left[self._file.write(left) :]
 

@@ -6,6 +6,7 @@ import math
 import time
 import warnings
 from concurrent.futures import CancelledError
+from contextlib import suppress
 from importlib import import_module
 from typing import TYPE_CHECKING, Any, Final, ParamSpec, TypeVar
 
@@ -71,7 +72,8 @@ class Cluster:
         """Twice as many as there are threads now; two if there is nobody, who may be on the way."""
         if self._client.status == _RUNNING and time.monotonic() - self._looked >= _LOOK_SECONDS:
             self._looked = time.monotonic()
-            self._places = 2 * max(1, sum(self._client.nthreads().values()))
+            with suppress(OSError):  # the scheduler is gone just now: the next task will tell
+                self._places = 2 * max(1, sum(self._client.nthreads().values()))
         return self._places
 
     def submit(self, task: Callable[P, T], /, *args: P.args, **kwargs: P.kwargs) -> Future[T]:

@@ -40,6 +40,13 @@ def test_a_line_without_its_end_is_left_out(path: Path, torn: bytes) -> None:
     assert list(read_journal(path)) == [(1, RECORDS[0]), (2, RECORDS[1]), (3, {"b": 3})]
 
 
+def test_half_a_character_is_written_as_a_question_mark(path: Path) -> None:
+    """What an engine says need not be text; the line can be read all the same."""
+    with JournalWriter(path, anew=True) as journal:
+        journal.write({"said": "bad \udc80 name"})
+    assert list(read_journal(path)) == [(1, {"said": "bad ? name"})]
+
+
 def test_a_journal_begun_anew_holds_nothing(path: Path) -> None:
     """What was there is gone."""
     with JournalWriter(path, anew=True):

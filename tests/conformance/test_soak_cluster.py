@@ -92,6 +92,18 @@ def test_a_cluster_does_what_one_process_does(tmp_path: Path) -> None:
 
 
 @pytest.mark.usefixtures("dask")
+def test_a_scheduler_that_goes_while_it_is_asked_is_not_a_full_disk(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Dask's error about a closed connection is an `OSError`; the next task tells what has happened."""
+    cluster = Cluster("tcp://here:8786")
+
+    def closed(_: FakeClient) -> dict[str, int]:
+        raise OSError("connection closed")
+
+    monkeypatch.setattr(FakeClient, "nthreads", closed)
+    assert cluster.places == 2
+
+
+@pytest.mark.usefixtures("dask")
 def test_a_shard_that_dask_has_given_up_is_tried_alone(tmp_path: Path) -> None:
     """Whoever died of another shard is not blamed for this one."""
     cluster = Cluster("tcp://here:8786")

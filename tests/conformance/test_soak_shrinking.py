@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any
 
+from hypothesis import settings
 from soak_engines import WRONG, Faulty, Forgetful, Right
 from soak_runs import engine
 
@@ -20,6 +21,7 @@ if TYPE_CHECKING:
     from pathlib import Path
 
     from conformance.soak.drawing import Drawn
+    from conformance.soak.kinds import FailureKind
 
 ORACLE = OracleCandidate()
 DRAWER = Drawer(7, mix_of(["single calls"]))
@@ -70,6 +72,51 @@ def numbers_in(value: Any) -> list[float]:
         return [value]
     items = value.values() if isinstance(value, dict) else value if isinstance(value, list | tuple) else ()
     return [number for item in items for number in numbers_in(item)]
+
+
+def test_a_failure_is_shrunk_on_a_ci_machine_too() -> None:
+    """Where Hypothesis keeps no examples unless it is told to."""
+    drawn = wrong_one()
+    kind = judge(drawn.query, ORACLE, Named()).kind
+    assert kind is not None
+    found = [shrunk_under(profile, drawn, kind) for profile in ("ci", "default")]
+    assert found[0] == found[1] != repr(drawn.query.inputs)
+
+
+def shrunk_under(profile: str, drawn: Drawn, kind: FailureKind) -> str:
+    """Return the inputs of the smallest failure that is found under a profile of Hypothesis."""
+    before = settings.get_current_profile_name()
+    settings.load_profile(profile)
+    try:
+        smallest = shrink(drawn, kind, ORACLE, Named())
+    finally:
+        settings.load_profile(before)
+    assert smallest is not None
+    return repr(smallest[0].inputs)
+
+
+class Tired(Named):
+    """Is wrong three times only."""
+
+    def __init__(self) -> None:
+        super().__init__()
+        self._left = 3
+
+    def answer(self, query: Any) -> Any:
+        """Answer a query."""
+        if query.op.startswith(WRONG):
+            self._left -= 1
+        return super().answer(query) if self._left >= 0 else ORACLE.answer(query)
+
+
+def test_a_failure_that_ends_by_itself_is_kept_as_far_as_it_went() -> None:
+    """Who answers the same question in another way each time cannot be shrunk to the end."""
+    drawn = wrong_one()
+    kind = judge(drawn.query, ORACLE, Named()).kind
+    assert kind is not None
+    smallest = shrink(drawn, kind, ORACLE, Tired())
+    assert smallest is not None
+    assert smallest[1].kind == kind
 
 
 def test_time_is_limited() -> None:
