@@ -11,7 +11,17 @@ from conformance.schema.geometry_queries import PolygonQuery
 from conformance.schema.movement_queries import MoverQuery
 from conformance.schema.mover import SeedModel
 from conformance.schema.query_base import Needs, QueryModel
-from conformance.schema.values import CellId, Flag, Number, Plane, Quaternion, Strictly, Vec3, named_bits
+from conformance.schema.values import (
+    CellId,
+    Flag,
+    InsertType,
+    Number,
+    Plane,
+    Quaternion,
+    Strictly,
+    Vec3,
+    named_bits,
+)
 from conformance.schema.walk_queries import BodyModel
 from conformance.schema.world import ObjectId
 from conformance.schema.world_queries import SceneQuery
@@ -149,7 +159,7 @@ class TransitionalPositionQuery(MoverQuery):
     from_: PoseModel = Field(alias="from")
     to: PoseModel
     seed: SeedModel = SeedModel()
-    insert_type: Literal["transition", "placement"]
+    insert_type: InsertType
     placement_allows_sliding: Flag = 1
 
 
