@@ -21,6 +21,7 @@ from conformance.schema.world_queries import (
     BuildingTransitQuery,
     CellListQuery,
     CellPointQuery,
+    CheckCollisionsQuery,
     CrossCellsQuery,
     LandCollisionsQuery,
     ObjectCallQuery,
@@ -38,7 +39,7 @@ if TYPE_CHECKING:
     from conformance.schema.query import AnyQuery
     from conformance.schema.scene import SceneModel
 
-_OF_ONE_CELL: Final = (ObjectCallQuery, ObjectTransitionQuery)
+_OF_ONE_CELL: Final = (CheckCollisionsQuery, ObjectCallQuery, ObjectTransitionQuery)
 _ALWAYS: Final = (
     *_OF_ONE_CELL,
     BuildingTransitQuery,
@@ -85,7 +86,7 @@ def world_inputs(query: AnyQuery, scene: SceneModel, maker: SceneMaker) -> dict[
 
 def make_scene(scene: SceneModel, op: str, maker: SceneMaker) -> None:
     """Make the world of a case that has other mistakes, for the faults that are noted."""
-    if op in {"object_call", "object_transition"}:
+    if op in {"check_collisions", "object_call", "object_transition"}:
         _one_cell(scene, WorldMaker(maker, scene), maker)
     else:
         WorldMaker(maker, scene).world()

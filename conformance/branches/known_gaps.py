@@ -41,9 +41,6 @@ NOT_A_NUMBER: Final = Reason(
 ENTERED: Final = Reason(Kind.NO_INPUT, "the cell has just been entered, and no response leaves it")
 THREE: Final = Reason(Kind.NO_INPUT, "standstills are counted to 3")
 IN_A_CELL: Final = Reason(Kind.NO_INPUT, "a placement in no cell has been refused before")
-VIEWER_STEPS: Final = Reason(
-    Kind.NO_INPUT, "a camera that moves by EPS or less makes no sub-step at all (05 NS-4)"
-)
 DECIDED: Final = Reason(Kind.NO_INPUT, "an insert has at least one attempt, which decides")
 
 REASONS: Final[Reasons] = {
@@ -71,8 +68,6 @@ REASONS: Final[Reasons] = {
     "polygon.Polygon.point_in_poly2D": {"if not self.vertices: true": POLYGONS},
     "sphere_path.SpherePath.precipice_slide": {"if walkable is None: true": HAS_WALKABLE},
     "sphere_responses.step_sphere_down": {"if is_nan(root): true": UNKNOWN},
-    "transition.Transition.check_collisions": {NEVER_CALLED: ETHEREAL},
     "transition_insert.placement_insert": {"if cell is None: true": IN_A_CELL},
-    "transition_path.find_transitional_position": {"if length > EPS: false": VIEWER_STEPS},
     "transition_validate.validate_transition": {"if ts in FAILED: false": DECIDED},
 }

@@ -40,6 +40,14 @@ class ObjectTransitionQuery(MoverQuery):
     placement_allows_sliding: Flag = 1
 
 
+class CheckCollisionsQuery(MoverQuery):
+    """Whether the mover, where it is, overlaps the first of the scene's objects."""
+
+    needs: ClassVar[Needs] = "cells"
+    op: Literal["check_collisions"]
+    from_: PoseModel = Field(alias="from", description="Where the mover is.")
+
+
 class TimeOfCollisionQuery(QueryModel):
     """When two spheres touch."""
 

@@ -209,6 +209,15 @@ def test_a_transition_onto_a_ball() -> None:
     assert placed["result"] == 0
 
 
+def test_an_overlap_is_asked_as_a_placement() -> None:
+    """What stands inside the first object overlaps it, whether or not it would collide in moving."""
+    inputs = {key: value for key, value in call("", BALL).items() if key in {"cell", "objects", "mover", "from"}}
+    inside = {**inputs, "from": POSE}
+    above = {**inputs, "from": pose(0.0, 0.0, 9.0)}
+    assert ask("check_collisions", inside) == {"r": 1}
+    assert ask("check_collisions", above) == {"r": 0}
+
+
 def test_the_walkable_s_geometry_is_named() -> None:
     """Where the cell's floor supports, its geometry is told."""
     fields = ask("object_call", call("cell", geometry="floor", z=0.25, step_down=1, walkable_allowance=0.6))

@@ -70,7 +70,7 @@ def test_the_keys_of_a_query_are_those_of_the_format(op: str) -> None:
         wanted |= {"start", "quantum"}
     if op == "place_body":
         wanted |= {"start"}
-    if op in {"object_call", "object_transition"}:
+    if op in {"check_collisions", "object_call", "object_transition"}:
         wanted -= {"cell", "objects"}
     if op == "terrain_block":
         wanted -= {"heights", "terrain"}

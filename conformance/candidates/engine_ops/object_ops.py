@@ -16,7 +16,7 @@ from conformance.candidates.engine_ops.state_block import object_block, state_bl
 from conformance.candidates.engine_ops.values import vector
 from conformance.candidates.engine_ops.world_cache import engine_pose, unbounded_shape
 from engine.cells import Cell
-from engine.constants import STATE_NAMES
+from engine.constants import PLACEMENT_INSERT, STATE_NAMES
 from engine.kernels.program import MEET, RESOLVE
 from engine.kernels.sphere_responses import find_time_of_collision
 from engine.object_call import Target
@@ -65,6 +65,17 @@ def _object_transition(query: Query) -> Fields:
     return fields | _state(result, touched, world)
 
 
+def _check_collisions(query: Query) -> Fields:
+    """Ask for the first object as a placement does, at the place where the mover is."""
+    inputs = query.inputs
+    world = World([_cell(query, _obstacles(query))])
+    row = query_row({**inputs, "to": inputs["from"]}, begin_cell=0)
+    take_path(row, {"insert_type": PLACEMENT_INSERT})
+    row["target_kind"], row["target_object"] = Target.OBJECT, 0
+    result, _, _ = run_noting(MEET, world, row)
+    return {"r": int(STATE_NAMES[int(result["result"])] != "OK")}
+
+
 def _cell(query: Query, things: list[Obstacle]) -> Cell:
     block = query.inputs["cell"]
     name = block["geometry"]
@@ -99,5 +110,6 @@ OPS: Final[dict[str, Callable[[Query], Fields]]] = {
     "find_time_of_collision": _find_time_of_collision,
     "object_call": _object_call,
     "object_transition": _object_transition,
+    "check_collisions": _check_collisions,
 }
 """Operation name to function."""

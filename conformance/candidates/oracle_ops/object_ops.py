@@ -56,6 +56,16 @@ def _object_transition(query: Query) -> Fields:
     return {"result": made.find_valid_position(), **_written(made, query)}
 
 
+def _check_collisions(query: Query) -> Fields:
+    """`CTransition::check_collisions` with the first object."""
+    cell = _only_cell(query)
+    here = position(query.inputs["from"])
+    made = Transition(cell.world)
+    take_mover(made, query.inputs["mover"], here)
+    made.init_path(cell, here, here)
+    return {"r": made.check_collisions(cell.shadow_object_list[0])}
+
+
 def _only_cell(query: Query) -> EnvCell:
     """Make the world of a query and return its cell."""
     block, world = query.inputs["cell"], World()
@@ -127,5 +137,6 @@ OPS: Final[dict[str, Callable[[Query], Fields]]] = {
     "find_time_of_collision": _find_time_of_collision,
     "object_call": _object_call,
     "object_transition": _object_transition,
+    "check_collisions": _check_collisions,
 }
 """Operation name to function."""
