@@ -211,9 +211,9 @@ def test_a_transition_onto_a_ball() -> None:
 
 def test_an_overlap_is_asked_as_a_placement() -> None:
     """What stands inside the first object overlaps it, whether or not it would collide in moving."""
-    inputs = {key: value for key, value in call("", BALL).items() if key in {"cell", "objects", "mover", "from"}}
-    inside = {**inputs, "from": POSE}
-    above = {**inputs, "from": pose(0.0, 0.0, 9.0)}
+    given = call("", BALL)
+    inputs = {key: given[key] for key in ("cell", "objects", "mover")}
+    inside, above = {**inputs, "from": POSE}, {**inputs, "from": pose(0.0, 0.0, 9.0)}
     assert ask("check_collisions", inside) == {"r": 1}
     assert ask("check_collisions", above) == {"r": 0}
 
