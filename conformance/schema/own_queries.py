@@ -151,6 +151,14 @@ class CountStepsQuery(MoverQuery):
     to: PoseModel
 
 
+class CheckPosQuery(MoverQuery):
+    """Put the spheres and their lowest point at a position."""
+
+    op: Literal["set_check_pos"]
+    from_: PoseModel = Field(alias="from")
+    to: PoseModel
+
+
 class TransitionalPositionQuery(MoverQuery):
     """One find_transitional_position, whatever the insert type."""
 

@@ -138,6 +138,18 @@ def cache_localspace_sphere(question: Query) -> Fields:
     }
 
 
+def set_check_pos(question: Query) -> Fields:
+    """`SPHEREPATH::set_check_pos` for a position, the spheres of the current one beside it."""
+    state = _at_check_pos(question)
+    return {
+        "global_spheres": _centers(state),
+        "global_curr": [
+            _vector(state, at.GLOBAL_CURR_CENTER + 3 * i) for i in range(int(state[at.NUM_SPHERE]))
+        ],
+        "low_point": _vector(state, at.GLOBAL_LOW_POINT),
+    }
+
+
 OPS: Final[dict[str, Callable[[Query], Fields]]] = {
     "find_collisions": find_collisions,
     "transition": transition,
@@ -146,5 +158,6 @@ OPS: Final[dict[str, Callable[[Query], Fields]]] = {
     "adjust_offset": adjust_offset,
     "cliff_slide": cliff_slide,
     "cache_localspace_sphere": cache_localspace_sphere,
+    "set_check_pos": set_check_pos,
 }
 """Operation name to function."""

@@ -127,6 +127,17 @@ def cache_localspace_sphere(query: Query) -> Fields:
     }
 
 
+def set_check_pos(query: Query) -> Fields:
+    """`SPHEREPATH::set_check_pos` for a position, the spheres of the current one beside it."""
+    made = _nowhere(query.inputs)
+    sp = made.sphere_path
+    return {
+        "global_spheres": centers(made),
+        "global_curr": [xyz(c) for c in sp.global_curr_center[: sp.num_sphere]],
+        "low_point": xyz(sp.global_low_point),
+    }
+
+
 OPS: Final[dict[str, Callable[[Query], Fields]]] = {
     "find_collisions": find_collisions,
     "transition": transition,
@@ -135,6 +146,7 @@ OPS: Final[dict[str, Callable[[Query], Fields]]] = {
     "cliff_slide": cliff_slide,
     "cache_localspace_sphere": cache_localspace_sphere,
     "calc_num_steps": calc_num_steps,
+    "set_check_pos": set_check_pos,
 }
 
 
