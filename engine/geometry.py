@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Final, TypeAlias
 import numpy as np
 
 from engine.checks import LARGEST_INDEX, flag, record, sequence, several, told, whole
+from engine.compiling.balls import bounding_balls
 from engine.errors import GeometryError
 from engine.float32 import float32_array
 from engine.kernels.polygon import polygon_make_plane
@@ -23,9 +24,11 @@ from engine.layout import (
     NODE_POSITIVE,
     NODE_SPHERE,
     POLYGON_ALIGNMENT,
+    POLYGON_CONVEX,
     POLYGON_CORNERS,
     POLYGON_COUNT,
     POLYGON_ID,
+    RADIUS,
     SHAPE_NODE_INTS,
     VECTOR_SIZE,
 )
@@ -172,7 +175,9 @@ def _flatten_polygons(points: Array, polygons: Sequence[Sequence[int]], name: st
         corners[:, :VECTOR_SIZE] = points[list(polygon)]
         polygon_make_plane(floats, at)
         polygon_make_edges(floats, at)
-    return offsets[:-1].astype(np.int64), floats
+    begins = offsets[:-1].astype(np.int64)
+    floats[begins + POLYGON_CONVEX] = np.isfinite(bounding_balls(floats, begins)[:, RADIUS])
+    return begins, floats
 
 
 def _record_size(num_vertices: int) -> int:

@@ -18,7 +18,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from engine.constants import BOUND_ROUNDING, BOUND_SLACK, EPS, UNBOUNDED
+from engine.constants import BOUND_ROUNDING, EPS, UNBOUNDED
 from engine.kernels.bsp_node import descend, in_bounds, is_leaf, leaf_polygons
 from engine.kernels.compile import inlined, kernel
 from engine.kernels.indexing import unsigned
@@ -48,12 +48,6 @@ from engine.layout import (
 
 if TYPE_CHECKING:
     from engine.kernels.types import Array, Ints
-
-
-@inlined
-def slack(x: float, y: float, z: float) -> float:
-    """Return how much farther than computed a ball at a point may reach, metres."""
-    return BOUND_SLACK + BOUND_ROUNDING * (abs(x) + abs(y) + abs(z))
 
 
 @inlined

@@ -15,10 +15,11 @@ import math
 from typing import TYPE_CHECKING
 
 from engine.constants import IS_VIEWER
-from engine.kernels.broad import ball_beyond, bounds_of, listed_ball, slack
+from engine.kernels.broad import ball_beyond, bounds_of, listed_ball
 from engine.kernels.cell_array import ints_of
 from engine.kernels.compile import inlined, kernel
 from engine.kernels.polygon import plane_distance
+from engine.kernels.rounding import slack
 from engine.kernels.vector import load
 from engine.layout import (
     CHECK_POS,

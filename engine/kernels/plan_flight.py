@@ -6,7 +6,7 @@ import math
 from typing import TYPE_CHECKING
 
 from engine.constants import BOUND_ROUNDING, BOUND_TILT, FLIGHT_STEPS
-from engine.kernels.broad import ball_beyond, bounds_of, fences_beyond, listed_ball, slack, tree_beyond
+from engine.kernels.broad import ball_beyond, bounds_of, fences_beyond, listed_ball, tree_beyond
 from engine.kernels.cell_array import cell_id, ints_of, is_land, position_of
 from engine.kernels.clearance import known_clear
 from engine.kernels.compile import inlined, kernel
@@ -15,6 +15,7 @@ from engine.kernels.plan import allows
 from engine.kernels.plan_portals import list_alone
 from engine.kernels.polygon import plane_distance
 from engine.kernels.probing import stays_in_contact
+from engine.kernels.rounding import slack
 from engine.kernels.vector import load
 from engine.layout import (
     BOUNDS_PASSABLE,

@@ -4,11 +4,12 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from engine.kernels.broad import fences_beyond, slack
+from engine.kernels.broad import fences_beyond
 from engine.kernels.cell_array import add_cell, cell_id, is_land
 from engine.kernels.cell_list import point_in_cell
 from engine.kernels.compile import kernel
 from engine.kernels.plan import allows
+from engine.kernels.rounding import slack
 from engine.kernels.vector import load
 from engine.layout import (
     ADDED_OUTSIDE,

@@ -12,11 +12,11 @@ from typing import TYPE_CHECKING
 from engine.constants import EPS
 from engine.kernels.compile import entry, inlined, inlined_entry
 from engine.kernels.indexing import unsigned
-from engine.kernels.polygon_edges import BEYOND, HIT, any_edge_near, disc_touches
-from engine.kernels.polygon_record import corner
-from engine.kernels.rounding import f32
+from engine.kernels.polygon_edges import BEYOND, HIT, MISS, any_edge_near, disc_touches
+from engine.kernels.polygon_record import corner, edge
+from engine.kernels.rounding import f32, slack
 from engine.kernels.vector import dot_x
-from engine.layout import CORNER_NORMAL, POLYGON_COUNT
+from engine.layout import CORNER_NORMAL, EDGE_NORMAL_SQUARED, POLYGON_CONVEX, POLYGON_COUNT
 
 if TYPE_CHECKING:
     from engine.kernels.types import Array, Vector
@@ -120,6 +120,44 @@ def polygon_point_in_polygon(wf: Array, p: int, x: float, y: float, z: float) ->
     return True
 
 
+@inlined
+def _first_outside(wf: Array, p: int, n: int, x: float, y: float, z: float) -> tuple[int, float]:
+    """Return at which vertex the first edge begins that a point is outside of; n if it is inside all.
+
+    And how far outside, as a negative number, in lengths of the edge's in-plane normal.
+
+    retail: PP-1...PP-3
+    """
+    k = n - 1
+    for following in range(n):
+        at = corner(p, k)
+        normal = at + CORNER_NORMAL
+        sx, sy, sz = x - wf[at], y - wf[at + 1], z - wf[at + 2]
+        side = (sz * wf[normal + 2] + sy * wf[normal + 1]) + sx * wf[normal]
+        if side < 0.0:
+            return k, side
+        k = following
+    return n, 0.0
+
+
+@inlined
+def _clear_of(
+    wf: Array, p: int, n: int, k: int, side: float, x: float, y: float, z: float, r: float, rsq: float
+) -> bool:
+    """Say whether a disc is so far outside of an edge that the walk around the edges is certain to MISS.
+
+    The disc's radius is the root of `rsq`, and at most r. If the polygon is convex, within a millimetre, all
+    of it is on the inner side of the edge's line; so where the disc's centre is farther from that line
+    than the radius and `slack`, it is farther than the radius from every edge and every vertex. No edge and
+    no vertex decides HIT then (PH-5, PH-6), and what is not HIT is a MISS (SS-6). With s the slack, the
+    square of radius + s is not more than rsq + s (2 r + s). The slack, which `engine.kernels.broad`
+    derives, is far more than a projected point and an edge's normal are rounded by.
+    """
+    s = slack(x, y, z)
+    far = wf[edge(p, n, k) + EDGE_NORMAL_SQUARED] * (rsq + s * (r + r + s))
+    return wf[unsigned(p + POLYGON_CONVEX)] != 0.0 and side * side > far
+
+
 @entry
 def polygon_hits_sphere(
     wf: Array, p: int, x: float, y: float, z: float, r: float
@@ -150,9 +188,13 @@ def polygon_hits_sphere_slow_but_sure(
     if rad < abs(dist):
         return BEYOND, 0.0, 0.0, 0.0
     qx, qy, qz = _contact(wf, p, dist, x, y, z)
-    if polygon_point_in_polygon(wf, p, qx, qy, qz):
+    n = int(wf[unsigned(p + POLYGON_COUNT)])
+    k, side = _first_outside(wf, p, n, qx, qy, qz)
+    if k == n:
         return HIT, qx, qy, qz
     rsq = f32(rad * rad - dist * dist)
+    if _clear_of(wf, p, n, k, side, qx, qy, qz, r, rsq):
+        return MISS, qx, qy, qz
     return any_edge_near(wf, p, qx, qy, qz, rsq), qx, qy, qz
 
 

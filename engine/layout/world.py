@@ -42,9 +42,11 @@ NO_TREE: Final = frozen(0)
 POLYGON_COUNT: Final = frozen(4)
 POLYGON_ID: Final = frozen(5)
 POLYGON_SHAPE: Final = frozen(6)
+POLYGON_CONVEX: Final = frozen(7)
+"""1 if no vertex is outside an edge (`engine.compiling.balls.bounding_balls`), else 0."""
 POLYGON_CORNERS: Final = frozen(8)
-"""A polygon record: plane, number of vertices, its id, its shape's index, pad, corners, edges; padded to
-`POLYGON_ALIGNMENT`."""
+"""A polygon record: plane, number of vertices, its id, its shape's index, whether it is convex, corners,
+edges; padded to `POLYGON_ALIGNMENT`."""
 POLYGON_ALIGNMENT: Final = frozen(8)
 """Numbers in a cache line: the plane, by which most polygons are ruled out, is in one."""
 CORNER_SIZE: Final = frozen(6)
