@@ -69,12 +69,12 @@ def summary(tally: Tally, identity: Identity, code: int) -> str:
 
 
 def _failing(kind: FailureKind, failing: Failing, plan: Plan, candidate: str) -> Iterator[str]:
-    yield f"{failing.count:,} times {kind}"
+    yield f"{failing.count:,} time{'' if failing.count == 1 else 's'} {kind}"
     yield f"  first in shard {failing.first.shard}, query {failing.first.query}: {failing.said}"
     if failing.kept is None:
         yield "  not kept as a case"
     else:
         path = plan.found / failing.kept.file
-        yield f'  rerun: pytest "{path}" --candidate {quoted_spec(candidate)}'
+        yield f'  rerun: pytest "{path}" --cases "{path}" --candidate {quoted_spec(candidate)}'
         if not failing.kept.alone:
             yield "  asked by itself, of a candidate that was asked nothing before, it does not fail"

@@ -25,6 +25,9 @@ if TYPE_CHECKING:
     from conformance.soak.workshop import Shard, Work
 
 
+pytest_plugins = ["pytester"]
+
+
 @pytest.fixture(autouse=True)
 def few_cases(monkeypatch: pytest.MonkeyPatch) -> None:
     """Shrink no more than one kind of failure in a campaign: it takes a while."""
@@ -58,11 +61,21 @@ def test_a_wrong_engine_is_red(tmp_path: Path, capsys: pytest.CaptureFixture[str
     assert soak(tmp_path, engine("Faulty"), queries="60") == exit_codes.FAILURES
     said = capsys.readouterr().out
     (case,) = (tmp_path / "found").iterdir()
-    assert f'  rerun: pytest "{case}" --candidate mod:soak_engines:Faulty' in said
+    assert f'  rerun: pytest "{case}" --cases "{case}" --candidate mod:soak_engines:Faulty' in said
     assert "  not kept as a case" in said
     assert "  skipped: mod:soak_engines:Faulty: no trees: " in said
     kept = [failure["case"] for failure in written(tmp_path)["failures"] if failure["case"]]
     assert kept == [case.name]
+
+
+@pytest.mark.parametrize(("name", "outcome"), [("Faulty", "failed"), ("Right", "passed")])
+def test_what_was_found_can_be_run_again(pytester: pytest.Pytester, name: str, outcome: str) -> None:
+    """As the output says: the candidate fails, retail and who is right do not."""
+    assert soak(pytester.path / "soak", engine("Faulty"), queries="60") == exit_codes.FAILURES
+    (case,) = (pytester.path / "soak" / "found").iterdir()
+    pytester.makeconftest("from conformance.conftest import pytest_addoption\n")
+    options = (str(case), "--cases", str(case), "--candidate", engine(name))
+    pytester.runpytest_inprocess(*options).assert_outcomes(**{outcome: 1})
 
 
 def test_of_an_engine_that_names_no_file_nothing_is_known(
