@@ -69,7 +69,7 @@ class _WrongPinError(Exception):
 
 def _leaves(value: Any, path: DocPath) -> Iterator[tuple[DocPath, Any]]:
     """Yield the values that are pinned one by one: everything but blocks and lists of more."""
-    if _is_block(value):
+    if _is_block(value) and (value or not path):
         for key, inner in value.items():
             yield from _leaves(inner, (*path, key))
     elif isinstance(value, list) and not all(isinstance(item, str) for item in value):
@@ -105,6 +105,8 @@ def _pins(op: str, path: DocPath, value: Any) -> Iterator[Pin]:
     except UnknownFieldError as error:
         hint = f"did you mean {error.nearest!r}?" if error.nearest else ""
         raise _WrongPinError(path, f"the field '{name}'", f"an output of {op}", hint) from None
+    if value == {}:
+        raise _WrongPinError(path, "an empty mapping", "at least one value, or leave it out")
     kind = kind_of(op, name)
     if isinstance(value, dict):
         yield from _free_pins(path, kind, value)

@@ -43,6 +43,9 @@ def test_states_by_name() -> None:
     ("expect", "path", "found"),
     [
         ({"reslt": "OK"}, ("expect", "reslt"), "the field 'reslt'"),
+        ({"reslt": {}}, ("expect", "reslt"), "the field 'reslt'"),
+        ({"reslt": [{}]}, ("expect", "reslt", 0), "the field 'reslt[0]'"),
+        ({"contact_plane": {}}, ("expect", "contact_plane"), "an empty mapping"),
         ({"result": "FINE"}, ("expect", "result"), "the text 'FINE'"),
         ({"walk_interp": "x"}, ("expect", "walk_interp"), "'x' (str)"),
         ({"walk_interp": {"value": 1}}, ("expect", "walk_interp"), "only 'value'"),
