@@ -19,6 +19,7 @@ FILES = (
     "cells/visible.yaml",
     "houses/entry.yaml",
     "math/combine.yaml",
+    "math/path.yaml",
     "math/rays.yaml",
     "placement/bodies.yaml",
     "terrain/loading.yaml",
