@@ -74,6 +74,8 @@ def record_of(op: str) -> dict[str, Any]:
     """Return the first shipped or built-in inputs of an operation, their world whole but without land."""
     if op in OWN_OUTPUTS:
         inputs = dict(own_queries()[op].inputs)
+        if "world" not in inputs:
+            return inputs
         return inputs | {"world": {**inputs["world"], "landblocks": [], "buildings": []}}
     library = Library(VECTORS)
     for path in sorted(VECTORS.glob("*.jsonl")):
