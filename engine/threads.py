@@ -86,8 +86,10 @@ def _await(share: Ints, count: int, helping: Sequence[_Task]) -> None:
     A helper that has not begun will find nothing to take; one whose queries are all done with needs nothing
     but to notice it.
     """
+    if not helping:
+        return
     end = perf_counter() + PATIENCE
-    while share[SHARE_DONE] < count and perf_counter() < end and helping:
+    while share[SHARE_DONE] < count and perf_counter() < end:
         sleep(0)
     if share[SHARE_DONE] < count:
         for task in helping:

@@ -16,6 +16,7 @@ from typing import TYPE_CHECKING, Any, Final
 import numpy as np
 from numba.core.dispatcher import Dispatcher
 
+from engine.kernels.ahead import bring_near
 from engine.kernels.sharing import add_to
 
 if TYPE_CHECKING:
@@ -39,7 +40,7 @@ class Interpreter:
     """
 
     def __init__(self, replacements: Mapping[Any, Callable[..., Any]]) -> None:
-        self._functions: dict[Any, Callable[..., Any]] = {add_to: _add_to, **replacements}
+        self._functions: dict[Any, Callable[..., Any]] = {**_MACHINE, **replacements}
         self._unreplaced: dict[Any, Callable[..., Any]] = {}
         self._lock = RLock()
         self._namespaces: dict[str, dict[str, Any]] = {}
@@ -87,6 +88,10 @@ def _add_to(numbers: Any, place: int, amount: int) -> int:
     return before
 
 
+def _ignore(*_arguments: Any) -> None:
+    """Do what a hint to the machine does: nothing that could be noticed."""
+
+
 def _number(value: Any) -> Any:
     """Return a number of Python as NumPy's, within tuples too."""
     if type(value) is float:
@@ -115,6 +120,8 @@ def _whole(function: Callable[[Any], Any]) -> Callable[[Any], int]:
     return lambda number: function(number) if math.isfinite(number) else _NOT_AN_INTEGER
 
 
+_MACHINE: Final[dict[Any, Callable[..., Any]]] = {add_to: _add_to, bring_near: _ignore}
+"""Kernels that are made of instructions of the machine, and what stands for them."""
 _MATH: Final = SimpleNamespace(
     nan=np.float64(math.nan),
     isnan=math.isnan,

@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, Final
 
 from engine.body_layout import B_STATUS
 from engine.constants import frozen
+from engine.kernels.ahead import bring_near
 from engine.kernels.collisions import collide
 from engine.kernels.compile import entry, inlined, kernel
 from engine.kernels.object_calls import meet
@@ -18,7 +19,7 @@ from engine.kernels.sharing import SHARE_SIZE, put_back, take
 from engine.kernels.tick import step
 from engine.kernels.tick_gates import update
 from engine.kernels.tick_placement import place
-from engine.layout import R_STATUS, STATUS_OK
+from engine.layout import QUERY_SIZE, R_STATUS, RESULT_SIZE, STATUS_OK
 
 if TYPE_CHECKING:
     from engine.kernels.types import Array, Ints
@@ -37,6 +38,9 @@ UPDATE: Final = frozen(4)
 
 PLACE: Final = frozen(5)
 """Each row is a body, and each of ``out`` its placement: `engine.kernels.tick_placement.place`."""
+
+AHEAD: Final = frozen(2)
+"""How many moves before its turn a row is brought near: a free flight is over before its rows have come."""
 
 
 @inlined
@@ -62,6 +66,8 @@ def _resolve_some(wf: Array, wi: Ints, s: Array, rows: Array, out: Array, first:
     """Answer some moves; return how many could not be. A loop of their own spares them the other jobs."""
     failed = 0
     for i in range(first, last):
+        bring_near(rows, i + AHEAD, QUERY_SIZE)
+        bring_near(out, i + AHEAD, RESULT_SIZE)
         resolve(wf, wi, s, rows[i], out[i])
         failed += out[i, R_STATUS] != STATUS_OK
     return failed

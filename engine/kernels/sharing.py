@@ -29,12 +29,15 @@ SHARE_INTS: Final = frozen(4)
 
 
 def _addition(_typing: Any, numbers: Any, _place: Any, _amount: Any) -> Any:
-    """Generate LLVM's atomic addition to an element of an array of integers."""
+    """Generate LLVM's atomic addition to an element of an array of integers.
+
+    Who sees it sees also what the thread had written before.
+    """
 
     def generate(context: Any, builder: Any, signature: Any, arguments: Any) -> Any:
         array = context.make_array(signature.args[0])(context, builder, arguments[0])
         place = builder.gep(array.data, [arguments[1]])
-        return builder.atomic_rmw("add", place, arguments[2], "monotonic")
+        return builder.atomic_rmw("add", place, arguments[2], "seq_cst")
 
     return types.int64(numbers, types.int64, types.int64), generate
 
