@@ -21,12 +21,14 @@ from engine import (
     Node,
     Obstacle,
     Part,
+    Plan,
     Portal,
     Pose,
     Shape,
     World,
     resolve,
 )
+from engine.plan import FULL_PLAN, NO_PLAN
 
 if TYPE_CHECKING:
     from engine.geometry import Tree
@@ -36,6 +38,8 @@ BLOCK: Final = 0xA9B4
 LONGEST: Final = 100.0
 """Metres that the mover is asked to go at most, so that an execution stays short."""
 HEIGHTS: Final = 81
+WORK: Final = frozenset({"nodes_visited", "polygons_tested", "cells_listed", "objects_tested", "skipped"})
+"""Fields that count work: shortcuts save it."""
 _IDENTITY: Final = (1.0, 0.0, 0.0, 0.0)
 _DEEPEST: Final = 40
 """Levels of a tree: no longer recursion than Python allows, here or in who walks it."""
@@ -47,8 +51,8 @@ def run(data: bytes) -> bool:
     Raises
     ------
     FindingError
-        An accepted world whose arrays point outside of themselves, or in which a mover gets a cell that
-        is none.
+        An accepted world whose arrays point outside of themselves, in which a mover gets a cell that is
+        none, or where shortcuts change the answer.
     """
     source = ByteSource(data)
     try:
@@ -167,12 +171,20 @@ def _check_arrays(world: World) -> None:
 def _move(source: ByteSource, world: World) -> None:
     cell_id = world.cell_ids[source.below(len(world.cell_ids))]
     start, end = (Pose(cell_id, [_near(source.number()) for _ in range(3)]) for _ in range(2))
+    move = Move(MOVER, end, cell_id, start=start)
+    result, slowly = (_answer(world, move, plan) for plan in (FULL_PLAN, NO_PLAN))
+    require(result == slowly, f"with shortcuts {result}, without them {slowly}")
+
+
+def _answer(world: World, move: Move, plan: Plan) -> dict[str, object]:
+    """Return what is answered but for the work that it took: each field's bytes, or the error."""
     try:
-        result = resolve(world, Move(MOVER, end, cell_id, start=start))
+        result = resolve(world, move, plan=plan)
     except EngineError as error:
         require(str(error), f"an error without words: {error!r}")
-        return
+        return {"error": str(error)}
     require(-1 <= int(result["curr_cell"]) < len(world.cell_ids), f"the cell {result['curr_cell']}")
+    return {name: result[name].tobytes() for name in result.dtype.names if name not in WORK}
 
 
 def _near(number: float) -> float:

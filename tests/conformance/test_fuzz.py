@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import re
 import sys
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import pytest
 from hypothesis import given
@@ -23,6 +23,8 @@ if TYPE_CHECKING:
 
 RUNS = {"yaml": 500, "vectors": 2000, "world": 300}
 """Executions of each target: a second or two, enough to see that it runs."""
+ACCEPTED_WORLD = "0a9df6dbff7f568b91f84d778176a5e920f447ef"
+"""A kept input that is a world through which a move is made."""
 KEPT = [(name, file) for name, target in TARGETS.items() for file in sorted(target.corpus.iterdir())]
 
 
@@ -151,3 +153,21 @@ def _script(folder: Path) -> str:
     )
     script.chmod(0o755)
     return str(script)
+
+
+def test_a_shortcut_that_changes_an_answer_is_a_finding(monkeypatch: pytest.MonkeyPatch) -> None:
+    """A move is made with and without shortcuts, which may differ in the work that they take alone."""
+    from conformance.fuzz import world_target
+
+    original = world_target.resolve
+    accepted = TARGETS["world"].corpus.joinpath(ACCEPTED_WORLD).read_bytes()
+    assert world_target.run(accepted) is True
+
+    def shifted(world: Any, move: Any, *, plan: Any) -> Any:
+        result = original(world, move, plan=plan)
+        result["walk_interp"] += plan is world_target.FULL_PLAN
+        return result
+
+    monkeypatch.setattr(world_target, "resolve", shifted)
+    with pytest.raises(FindingError, match="with shortcuts"):
+        world_target.run(accepted)
