@@ -21,6 +21,7 @@ FILES = (
     "math/combine.yaml",
     "math/path.yaml",
     "math/rays.yaml",
+    "objects/overlap.yaml",
     "placement/bodies.yaml",
     "terrain/loading.yaml",
     "ticks/unusual.yaml",
