@@ -29,6 +29,7 @@ EXAMPLES: Final = (
     "conformance gate --quick --skip-unchanged evidence --candidate engine",
     "conformance gate --stage cases --case 'step-up-*' --candidate bug:scaled-offset",
     "conformance gate --quick --write-baseline baseline.json",
+    "conformance gate --quick --baseline baseline.json",
 )
 _METHOD: Final = """\
 Stages: cases (every pinned case), poses (random calls, scenes and worlds), walks (random walks), stress
@@ -83,6 +84,12 @@ def configure(parser: argparse.ArgumentParser) -> None:
         "cmd: or mod: candidate is known to be unchanged",
     )
     options.add_argument(
+        "--baseline",
+        type=Path,
+        metavar="FILE",
+        help="hold the candidate's speed against what is stored there",
+    )
+    options.add_argument(
         "--write-baseline", type=Path, metavar="FILE", help="measure the candidate's speed and store it there"
     )
 
@@ -112,6 +119,7 @@ def run(args: argparse.Namespace) -> int:
 
 def _gate(args: argparse.Namespace) -> Gate:
     from conformance.gate.config import FULL, QUICK, STANDARD, GateConfigError, read_config
+    from conformance.gate.outcome import Stage
     from conformance.yaml_source import YamlError
 
     if args.full and args.skip_unchanged is not None:
@@ -124,6 +132,8 @@ def _gate(args: argparse.Namespace) -> Gate:
         raise UsageError(f"cannot read {args.config}: {error.strerror}") from error
     except (GateConfigError, YamlError) as error:
         raise UsageError(f"not a gate's configuration:\n{error}") from error
+    if args.baseline is not None:
+        gate = replace(gate, baseline=args.baseline, stages=(*gate.stages, Stage.PERFORMANCE))
     return replace(gate, only=tuple(args.case), deviations=args.deviations or gate.deviations)
 
 
@@ -143,7 +153,6 @@ def _cases(gate: Gate) -> tuple[Case, ...]:
 
 def _asked(gate: Gate, args: argparse.Namespace) -> GateRun:
     """Return an empty run of the stages that are asked for, with notes on those that cannot be."""
-    from conformance.candidates.registry import COMMAND_PREFIX
     from conformance.gate.outcome import GateRun, Stage
 
     run = GateRun(tuple(_stages(gate, args)))
@@ -152,8 +161,6 @@ def _asked(gate: Gate, args: argparse.Namespace) -> GateRun:
         raise UsageError(f"stage stress: {missing}")
     if missing:
         run.leave_out(Stage.STRESS, missing)
-    if Stage.PERFORMANCE in run.asked and args.candidate.startswith(COMMAND_PREFIX):
-        run.leave_out(Stage.PERFORMANCE, "the candidate is not in this process")
     return run
 
 
@@ -190,7 +197,7 @@ def _baseline(run: GateRun, gate: Gate, cases: list[Case], args: argparse.Namesp
     if Stage.PERFORMANCE not in run.asked or args.write_baseline is not None:
         return None
     if gate.baseline is None:
-        raise UsageError("stage performance: a baseline is needed, in --config; --write-baseline makes one")
+        raise UsageError("stage performance: --baseline is needed; --write-baseline makes one")
     try:
         return read_baseline(gate.baseline, queries_digest(cases))
     except BaselineError as error:

@@ -1,17 +1,19 @@
 """The stage of speed: candidate and oracle take turns at walks, and the ratio is held against a stored one.
 
 A machine changes its speed; how much faster a candidate is than the oracle, measured side by side, changes
-with the candidate.
+with the candidate, and with the Python that runs the oracle: a baseline is of one version of it.
 """
 
 from __future__ import annotations
 
 import json
-import statistics
+import platform
 import time
 from dataclasses import asdict, dataclass
-from typing import TYPE_CHECKING, Final
+from typing import TYPE_CHECKING, Any, Final
 
+from conformance.bench.figures import Summary, summarise
+from conformance.candidates.base import ask_ahead
 from conformance.gate.digests import digest_of
 from conformance.gate.outcome import Check, Stage, Status
 from conformance.query import Result
@@ -29,6 +31,8 @@ WALK_OPS: Final = ("walk", "world_walk", "body_walk")
 """Of many ticks each, so that handing a query over weighs little."""
 MOST_QUERIES: Final = 24
 ROUNDS: Final = 5
+PYTHON: Final = ".".join(platform.python_version_tuple()[:2])
+"""The version of Python that runs the oracle, without the last number: that one changes no speed."""
 
 
 class BaselineError(Exception):
@@ -43,15 +47,21 @@ class Baseline:
     ----------
     candidate : str
         Whose it is.
-    ratio : float
-        The oracle's time over the candidate's: above 1, the candidate is faster.
+    ratio, low, high : float
+        The oracle's time over the candidate's: above 1, the candidate is faster. The median of the rounds,
+        and the quartiles about it: how far a measurement may be from the next.
     queries : str
         Digest of what was asked.
+    python : str
+        What the oracle was run by.
     """
 
     candidate: str
     ratio: float
+    low: float
+    high: float
     queries: str
+    python: str
 
     def to_json(self) -> str:
         """Write it as it is stored."""
@@ -70,11 +80,10 @@ def read_baseline(path: Path, asked: str) -> Baseline:
     Raises
     ------
     BaselineError
-        It cannot be read, or other queries were asked for it.
+        It cannot be read, other queries were asked for it, or another Python has run the oracle.
     """
     try:
-        data = json.loads(path.read_text(encoding="utf-8"))
-        baseline = Baseline(str(data["candidate"]), float(data["ratio"]), str(data["queries"]))
+        baseline = _baseline_of(json.loads(path.read_text(encoding="utf-8")))
     except OSError as error:
         raise BaselineError(f"cannot read {path}: {error.strerror}; --write-baseline makes one") from error
     except (ValueError, KeyError, TypeError) as error:
@@ -85,7 +94,19 @@ def read_baseline(path: Path, asked: str) -> Baseline:
         raise BaselineError(f"{path}: found the ratio {baseline.ratio}, expected a number above 0")
     if baseline.queries != asked:
         raise BaselineError(f"{path}: measured with other cases than these: --write-baseline measures anew")
+    if baseline.python != PYTHON:
+        raise BaselineError(
+            f"{path}: found Python {baseline.python}, expected {PYTHON}, which runs the oracle here, with a "
+            "speed of its own: --write-baseline measures anew"
+        )
     return baseline
+
+
+def _baseline_of(data: dict[str, Any]) -> Baseline:
+    numbers = {name: float(data[name]) for name in ("ratio", "low", "high")}
+    return Baseline(
+        str(data["candidate"]), queries=str(data["queries"]), python=str(data["python"]), **numbers
+    )
 
 
 def timed_queries(cases: Sequence[Case]) -> list[Query]:
@@ -103,8 +124,8 @@ def queries_digest(cases: Sequence[Case]) -> str:
 
 def measure_ratio(
     queries: Sequence[Query], candidate: Candidate, oracle: Candidate, say: Callable[[str], None]
-) -> tuple[float, int]:
-    """Let both take turns; return the median of the rounds' ratios, and how many queries both have answered.
+) -> tuple[Summary | None, int]:
+    """Let both take turns; return the rounds' ratios, None without any, and how many queries both answer.
 
     A first round, which is not timed, finds out which those are, and lets caches fill.
     """
@@ -119,7 +140,7 @@ def measure_ratio(
         order = (oracle, candidate) if number % 2 else (candidate, oracle)
         seconds = {id(who): _seconds(who, both) for who in order}
         ratios.append(seconds[id(oracle)] / seconds[id(candidate)])
-    return (statistics.median(ratios) if ratios else 0.0), len(both)
+    return (summarise(ratios) if ratios else None), len(both)
 
 
 def check_speed(
@@ -133,21 +154,32 @@ def check_speed(
     begin = time.perf_counter()
     ratio, count = measure_ratio(timed_queries(cases), parties.candidate, parties.oracle, say)
     least = 0.0 if baseline is None else parties.gate.least_ratio * baseline.ratio
-    status = Status.SKIPPED if not count else Status.PASSED if ratio >= least else Status.FAILED
-    message = _said(ratio, baseline, least) if count else "no walk that both answer"
+    status, message = Status.SKIPPED, "no walk that both answer"
+    if ratio is not None:
+        status = Status.PASSED if ratio.middle >= least else Status.FAILED
+        message = _said(ratio, baseline, least)
     record(Check(Stage.PERFORMANCE, "walks", status, count, time.perf_counter() - begin, message))
-    return Baseline(parties.spec, ratio, queries_digest(cases)) if count and baseline is None else None
+    if ratio is None or baseline is not None:
+        return None
+    return Baseline(parties.spec, ratio.middle, ratio.low, ratio.high, queries_digest(cases), PYTHON)
 
 
-def _said(ratio: float, baseline: Baseline | None, least: float) -> str:
-    measured = f"the oracle takes {ratio:.3g} times as long"
+def _said(ratio: Summary, baseline: Baseline | None, least: float) -> str:
+    measured = f"the oracle takes {_spread(ratio.middle, ratio.low, ratio.high)} times as long"
     if baseline is None:
         return f"{measured}; stored"
-    return f"{measured}; stored {baseline.ratio:.3g}, at least {least:.3g} demanded"
+    stored = _spread(baseline.ratio, baseline.low, baseline.high)
+    return f"{measured}; stored {stored} of {baseline.candidate}, at least {least:.3g} demanded"
+
+
+def _spread(middle: float, low: float, high: float) -> str:
+    return f"{middle:.3g} ({low:.3g} - {high:.3g})"
 
 
 def _seconds(who: Candidate, queries: Sequence[Query]) -> float:
+    """Ask all, as in a run: an engine in a process of its own may work on one while it is sent the next."""
     begin = time.perf_counter()
+    ask_ahead(who, queries)
     for query in queries:
         who.answer(query)
     return time.perf_counter() - begin

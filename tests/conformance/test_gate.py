@@ -16,12 +16,11 @@ from xml.etree import ElementTree as ET
 import pytest
 import yaml
 from deviation_files import FAILING, ORIGIN, deviation_file
-from faux import faux_command
+from faux import faux_command, serve_command
 from hypothesis import given
 from hypothesis import strategies as st
 
 from conformance import exit_codes
-from conformance.candidates.bug_candidate import BugCandidate
 from conformance.candidates.known_bugs import list_bugs
 from conformance.candidates.oracle_candidate import OracleCandidate
 from conformance.candidates.registry import make_candidate
@@ -48,6 +47,15 @@ DOCS = ROOT / "docs"
 BUGS = {bug.id: bug for bug in list_bugs() if bug.case}
 assert BUGS, "no known bugs with a case"
 TODAY = dt.date(2030, 1, 1)
+SLOWED = """
+from conformance.candidates.oracle_candidate import OracleCandidate
+
+
+class Slowed(OracleCandidate):
+    def answer(self, query):
+        return [super(Slowed, self).answer(query) for _ in range(4)][-1]
+"""
+"""A candidate that is right, and takes four times as long as it might."""
 TWO_CASES = "cases: [{}]\nposes: {{count: 0}}\nwalks: {{count: 0}}\n"
 
 
@@ -229,12 +237,16 @@ def test_random_queries(gate: Gate) -> None:
 
 
 @pytest.mark.parametrize("bug", [bug for bug in BUGS.values() if not bug.survives], ids=lambda bug: bug.id)
-def test_each_known_bug_fails_its_case(bug: Any) -> None:
-    """Whatever else there is, the gate ends with 1: its named case is answered wrongly."""
+def test_each_known_bug_fails_the_gate(bug: Any, gate: Gate) -> None:
+    """1, and the evidence names the case; more cases and stages can only add to what fails."""
     (case,) = chosen(built_in(), [bug.case])
-    verdict = judge(case, BugCandidate(bug), OracleCandidate())
-    reckoning = reckon(Deviations("x"), case.id, verdict, candidate=f"bug:{bug.id}", today=TODAY)
-    assert judged(verdict, reckoning)[0] is Status.FAILED
+    gate.config.write_text(
+        TWO_CASES.format(json.dumps(str(Path(case.location.file).resolve()))), encoding="utf-8"
+    )
+    assert gate("--case", case.id, candidate=f"bug:{bug.id}") == exit_codes.FAILURES
+    (check,) = gate.summary()["checks"]
+    assert (check["name"], check["status"]) == (case.id, "failed")
+    assert case.id in (gate.evidence / "report.html").read_text(encoding="utf-8")
 
 
 @functools.cache
@@ -386,39 +398,76 @@ def test_both_are_asked_as_often() -> None:
     first, second = Slow("a"), Slow("b")
     ratio, count = measure_ratio(queries, first, second, lambda _text: None)
     assert count == 2
-    assert ratio > 0.0
+    assert ratio is not None
+    assert 0.0 < ratio.low <= ratio.middle <= ratio.high
     assert first.asked == second.asked == 2 * 6
-    assert measure_ratio(queries, Slow("a", skips=True), second, lambda _text: None) == (0.0, 0)
+    assert measure_ratio(queries, Slow("a", skips=True), second, lambda _text: None) == (None, 0)
 
 
 def test_baselines(tmp_path: Path) -> None:
-    """Read as written; of other queries, or no baseline at all, refused."""
+    """Read as written; of other queries, beside another Python, or no baseline at all, refused."""
     path = tmp_path / "baseline.json"
-    baseline = Baseline("engine", 40.0, "abc")
+    baseline = Baseline("engine", 40.0, 39.0, 42.0, "abc", speed.PYTHON)
     path.write_text(baseline.to_json(), encoding="utf-8")
     assert read_baseline(path, "abc") == baseline
     with pytest.raises(BaselineError, match="measured with other cases"):
         read_baseline(path, "abd")
-    for text in ("{", "[]", '{"candidate": "x", "queries": "abc", "ratio": 0}'):
+    path.write_text(replace(baseline, python="2.7").to_json(), encoding="utf-8")
+    with pytest.raises(BaselineError, match=r"found Python 2\.7, expected 3\."):
+        read_baseline(path, "abc")
+    for text in ("{", "[]", '{"candidate": "x"}', replace(baseline, ratio=0.0).to_json()):
         path.write_text(text, encoding="utf-8")
         with pytest.raises(BaselineError):
             read_baseline(path, "abc")
 
 
-def test_speed_is_held_against_the_baseline(gate: Gate, monkeypatch: pytest.MonkeyPatch) -> None:
-    """A candidate that is slower than what is stored by far is a failure; the oracle is as fast as itself."""
-    walks = ROOT / "conformance" / "cases" / "walks" / "standstill.yaml"
-    monkeypatch.setattr(speed, "ROUNDS", 1)
+@pytest.fixture
+def walking(gate: Gate, monkeypatch: pytest.MonkeyPatch) -> Gate:
+    """Return the command on walks, of which it times one, in three rounds."""
+    walks = ROOT / "conformance" / "cases" / "worlds" / "ends.yaml"
+    monkeypatch.setattr(speed, "ROUNDS", 3)
     monkeypatch.setattr(speed, "MOST_QUERIES", 1)
     gate.config.write_text(f"cases: [{json.dumps(str(walks))}]\n", encoding="utf-8")
-    stored = gate.folder / "baseline.json"
-    assert gate("--write-baseline", stored, stage="performance") == exit_codes.OK
+    return gate
+
+
+def test_speed_is_held_against_the_baseline(
+    walking: Gate, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    """What is as fast as it was passes; what asks retail four times for each answer does not."""
+    (walking.folder / "slowed.py").write_text(SLOWED, encoding="utf-8")
+    monkeypatch.chdir(walking.folder)
+    stored = walking.folder / "baseline.json"
+    assert walking("--write-baseline", stored, stage="performance") == exit_codes.OK
+    assert 0.5 < json.loads(stored.read_text(encoding="utf-8"))["ratio"] < 2.0
+    against = ("--baseline", stored)
+    assert walking(*against, candidate="mod:slowed:Slowed", stage="performance") == exit_codes.FAILURES
+    told = capsys.readouterr().out
+    assert re.search(
+        r"walks: the oracle takes 0\.\d+ \(.*\) times as long; stored .* of oracle, at least", told
+    )
+    (check,) = walking.summary()["checks"]
+    assert (check["stage"], check["status"]) == ("performance", "failed")
+
+
+def test_an_engine_in_a_process_has_a_speed_too(walking: Gate) -> None:
+    """Messages are part of it; it passes against what it can reach, and not against a hundred times that."""
+    walking.config.write_text(
+        walking.config.read_text(encoding="utf-8") + "performance: {baseline: b.json, at_least: 0.01}\n",
+        encoding="utf-8",
+    )
+    command, stored = f"cmd:{serve_command('--candidate', 'oracle')}", walking.folder / "b.json"
+    assert walking("--write-baseline", stored, candidate=command, stage="performance") == exit_codes.OK
+    assert walking(candidate=command, stage="performance") == exit_codes.OK
     record = json.loads(stored.read_text(encoding="utf-8"))
-    for ratio, code in ((1e-3, exit_codes.OK), (1e6, exit_codes.FAILURES)):
-        stored.write_text(json.dumps({**record, "ratio": ratio}), encoding="utf-8")
-        part = f"performance: {{baseline: {stored.name}}}\n"
-        gate.config.write_text(f"cases: [{json.dumps(str(walks))}]\n{part}", encoding="utf-8")
-        assert gate(stage="performance") == code
+    stored.write_text(json.dumps({**record, "ratio": 1e4 * record["ratio"]}), encoding="utf-8")
+    assert walking(candidate=command, stage="performance") == exit_codes.FAILURES
+
+
+def test_a_stage_of_speed_needs_a_baseline(walking: Gate, capsys: pytest.CaptureFixture[str]) -> None:
+    """2, and how to make one."""
+    assert walking(stage="performance") == exit_codes.USAGE
+    assert "--write-baseline makes one" in capsys.readouterr().err
 
 
 def test_the_page_shows_a_configuration_that_is_read(tmp_path: Path) -> None:
