@@ -8,8 +8,8 @@ from __future__ import annotations
 
 import json
 import platform
-import time
 from dataclasses import asdict, dataclass
+from time import perf_counter
 from typing import TYPE_CHECKING, Any, Final
 
 from conformance.bench.figures import Summary, summarise
@@ -151,14 +151,14 @@ def check_speed(
     say: Callable[[str], None],
 ) -> Baseline | None:
     """Measure, and hold the ratio against the baseline; without one, return what can be stored as one."""
-    begin = time.perf_counter()
+    begin = perf_counter()
     ratio, count = measure_ratio(timed_queries(cases), parties.candidate, parties.oracle, say)
     least = 0.0 if baseline is None else parties.gate.least_ratio * baseline.ratio
     status, message = Status.SKIPPED, "no walk that both answer"
     if ratio is not None:
         status = Status.PASSED if ratio.middle >= least else Status.FAILED
         message = _said(ratio, baseline, least)
-    record(Check(Stage.PERFORMANCE, "walks", status, count, time.perf_counter() - begin, message))
+    record(Check(Stage.PERFORMANCE, "walks", status, count, perf_counter() - begin, message))
     if ratio is None or baseline is not None:
         return None
     return Baseline(parties.spec, ratio.middle, ratio.low, ratio.high, queries_digest(cases), PYTHON)
@@ -178,8 +178,8 @@ def _spread(middle: float, low: float, high: float) -> str:
 
 def _seconds(who: Candidate, queries: Sequence[Query]) -> float:
     """Ask all, as in a run: an engine in a process of its own may work on one while it is sent the next."""
-    begin = time.perf_counter()
+    begin = perf_counter()
     ask_ahead(who, queries)
     for query in queries:
         who.answer(query)
-    return time.perf_counter() - begin
+    return perf_counter() - begin
