@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import re
 from typing import TYPE_CHECKING, Any, Final
 
 from conformance.fields import FieldError
@@ -16,6 +17,7 @@ if TYPE_CHECKING:
 _BODIES: Final = ("result", "skipped", "errored")
 _MOST_SHOWN: Final = 120
 """Characters of a bad reply that are shown."""
+_MINUS_ZERO: Final = re.compile(rb"-0(?![.0-9eE])")
 _JSON_NUMBERS: Final = {"NaN": "nan", "Infinity": "inf", "-Infinity": "-inf"}
 
 
@@ -96,7 +98,8 @@ def _parsed(line: bytes) -> Any:
     if not line.endswith(b"\n"):
         raise BadReplyError(f"{_shown(line)} without a line end", "whole lines")
     try:
-        return _DECODER.decode(line.decode("utf-8"))
+        decoder = _SIGN_DECODER if _MINUS_ZERO.search(line) else _DECODER
+        return decoder.decode(line.decode("utf-8"))
     except UnicodeDecodeError as error:
         raise BadReplyError(f"bytes that are not UTF-8 at column {error.start + 1}", "UTF-8") from None
     except json.JSONDecodeError as error:
@@ -148,4 +151,10 @@ def _refuse_constant(name: str) -> float:
     )
 
 
+def _keep_sign(digits: str) -> float:
+    return -0.0 if digits == "-0" else int(digits)
+
+
 _DECODER: Final = json.JSONDecoder(parse_constant=_refuse_constant)
+_SIGN_DECODER: Final = json.JSONDecoder(parse_constant=_refuse_constant, parse_int=_keep_sign)
+"""Of lines with a ``-0``, as .NET and Go write the float -0.0: a whole number would lose the sign."""

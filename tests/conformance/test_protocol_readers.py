@@ -14,6 +14,8 @@ from conformance.fields import FieldError, normalise
 from conformance.protocol import readers
 from conformance.protocol.dialects import DIALECTS, write_outputs
 from conformance.protocol.readers import read_outputs
+from conformance.protocol.replies import outcome_of, read_reply
+from conformance.query import Result
 
 OP = "block_offset"
 SMALL = "normalize_check_small"
@@ -66,6 +68,14 @@ def test_both_ways_read_the_same(vector: Any, flag: Any) -> None:
 def test_numbers_are_rounded_to_float32(value: object, read: float) -> None:
     """Whole numbers and texts for what is not finite included."""
     assert repr(read_outputs(OP, {"v": [value, 0.0, 0.0]}, "decimal")) == repr({"v": [read, 0.0, 0.0]})
+
+
+@pytest.mark.parametrize("zero", ["-0", "-0.0", "-0e0", "0", "0.0"])
+def test_zeros_keep_their_sign(zero: str) -> None:
+    """Also written without a point, as some writers of JSON do; whole numbers beside it stay whole."""
+    reply = read_reply(f'{{"seq":1,"result":{{"small":1,"v":[{zero},-0,2]}}}}\n'.encode(), 1)
+    sign = -0.0 if zero.startswith("-") else 0.0
+    assert repr(outcome_of(reply, SMALL, "decimal")) == repr(Result({"small": 1, "v": [sign, -0.0, 2.0]}))
 
 
 @pytest.mark.parametrize(
