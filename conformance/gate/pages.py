@@ -2,12 +2,16 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Final
+from typing import TYPE_CHECKING, Any, Final
 
 from conformance.report.html.entries import Entry, Judge
+from conformance.report.html.library import MissingVizError, plotly_source
 from conformance.report.html.page import Report, page
+from conformance.report.html.view import views_of
 
 if TYPE_CHECKING:
+    from collections.abc import Mapping
+
     from conformance.case import Case
     from conformance.gate.parties import Parties
     from conformance.verdict import Verdict
@@ -43,4 +47,16 @@ class Pages:
         """Write the report; empty if no case was asked."""
         if not self._entries:
             return ""
-        return page(Report(self._candidate, self._entries, complaints=complaints))
+        views, library = self._scenes()
+        report = Report(self._candidate, self._entries, complaints=complaints, views=views, library=library)
+        return page(report)
+
+    def _scenes(self) -> tuple[Mapping[str, dict[str, Any]] | None, str]:
+        """Return the 3-D views of the pages, and the library that shows them, if it is installed."""
+        if not self._told:
+            return None, ""
+        try:
+            library = plotly_source()
+        except MissingVizError:
+            return None, ""
+        return views_of(self._entries, self._candidate), library

@@ -28,7 +28,7 @@ from conformance.cli import _make_parser, main
 from conformance.compare import Difference
 from conformance.deviations.files import Deviations, read_deviations
 from conformance.deviations.reckoning import reckon
-from conformance.gate import config, digests, pinned, speed
+from conformance.gate import config, digests, pages, pinned, speed
 from conformance.gate.evidence import EvidenceError, badge_record, passed_before
 from conformance.gate.junit import junit_xml
 from conformance.gate.outcome import VERDICTS, Check, GateRun, Stage, Status
@@ -36,6 +36,7 @@ from conformance.gate.pinned import chosen, judged
 from conformance.gate.speed import Baseline, BaselineError, measure_ratio, read_baseline
 from conformance.loader import Vary, load_file, load_paths
 from conformance.query import Query, Result, Skipped
+from conformance.report.html.library import MissingVizError
 from conformance.shapes import Kind
 from conformance.verdict import Failure, Verdict, judge
 
@@ -154,6 +155,23 @@ def test_a_bug_does_not(gate: Gate, capsys: pytest.CaptureFixture[str]) -> None:
     assert f"  {FAILING}: {FAILING}: contact_plane.d: retail -94.0" in capsys.readouterr().out
     assert FAILING in (gate.evidence / "report.html").read_text(encoding="utf-8")
     assert gate.summary()["verdict"] == "disagreement"
+
+
+def test_the_report_shows_the_scene_of_what_fails(gate: Gate, monkeypatch: pytest.MonkeyPatch) -> None:
+    """Where the library is installed; without it there is a report all the same."""
+    pytest.importorskip("plotly", reason="the extra `viz` is not installed")
+    monkeypatch.setattr(pages, "plotly_source", lambda: "/* the library */")
+    gate(candidate="bug:cell-origin")
+    text = (gate.evidence / "report.html").read_text(encoding="utf-8")
+    assert text.count('class="view"') == 1
+    assert "/* the library */" in text
+
+    def missing() -> str:
+        raise MissingVizError("plotly")
+
+    monkeypatch.setattr(pages, "plotly_source", missing)
+    gate(candidate="bug:cell-origin")
+    assert 'class="view"' not in (gate.evidence / "report.html").read_text(encoding="utf-8")
 
 
 def test_a_recorded_bug_passes(gate: Gate) -> None:
