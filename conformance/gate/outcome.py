@@ -44,7 +44,7 @@ VERDICTS: Final = {
     exit_codes.BROKEN_OFF: "broken off",
 }
 """What an exit code is called in the evidence."""
-_DONE: Final = frozenset({Status.PASSED, Status.RECORDED, Status.UNCHANGED})
+_SHOWN: Final = frozenset(Status) - {Status.SKIPPED}
 
 
 @dataclass(frozen=True, slots=True)
@@ -130,7 +130,7 @@ class GateRun:
     @property
     def empty_stages(self) -> list[Stage]:
         """The stages that have shown nothing: all was filtered away, or the candidate does none of it."""
-        return [stage for stage in self.asked if not any(check.status in _DONE for check in self.of(stage))]
+        return [stage for stage in self.asked if not any(check.status in _SHOWN for check in self.of(stage))]
 
     @property
     def exit_code(self) -> int:

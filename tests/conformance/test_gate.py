@@ -151,8 +151,10 @@ def test_a_clean_candidate_passes(gate: Gate, capsys: pytest.CaptureFixture[str]
 
 def test_a_bug_does_not(gate: Gate, capsys: pytest.CaptureFixture[str]) -> None:
     """1, with the first difference, in the report as well."""
-    assert gate(candidate="bug:cell-origin") == exit_codes.FAILURES
-    assert f"  {FAILING}: {FAILING}: contact_plane.d: retail -94.0" in capsys.readouterr().out
+    assert gate("--case", FAILING, candidate="bug:cell-origin") == exit_codes.FAILURES
+    out = capsys.readouterr().out
+    assert f"  {FAILING}: {FAILING}: contact_plane.d: retail -94.0" in out
+    assert "nothing was shown" not in out
     assert FAILING in (gate.evidence / "report.html").read_text(encoding="utf-8")
     assert gate.summary()["verdict"] == "disagreement"
 
