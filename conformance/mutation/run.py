@@ -6,7 +6,7 @@ import multiprocessing
 from concurrent.futures import Future, ProcessPoolExecutor, as_completed
 from concurrent.futures.process import BrokenProcessPool
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Final
+from typing import TYPE_CHECKING, Final, TypeAlias
 
 from conformance.branches.measure import oracle_sources
 from conformance.mutation.asking import questions
@@ -19,9 +19,12 @@ if TYPE_CHECKING:
     from collections.abc import Callable, Collection, Iterator, Mapping, Sequence
     from pathlib import Path
 
+    from conformance.mutation.asking import Question
     from conformance.mutation.operators import Plan
     from conformance.mutation.reach import Reach
     from conformance.mutation.trial import Finding
+
+    Asked: TypeAlias = tuple[Sequence[Question], Mapping[str, Reach]]
 
 DOCUMENTS: Final = ("02", "03", "04", "05")
 """Documents whose functions are mutated unless others are asked for: polygons, trees, path, transition."""
@@ -87,8 +90,7 @@ def judge(work: Work, plans_: Sequence[Plan], say: Callable[[str], None]) -> lis
     hints = {n: journal.hint(plans_[n].mutant) for n in work.chosen if n not in found}
     with journal:
         if hints:
-            reached = reaches(asked, say)
-            for number, finding in _judged(work, plans_, reached, hints):
+            for number, finding in _judged(work, plans_, (asked, reaches(asked, say)), hints):
                 found[number] = finding
                 journal.note(finding)
                 noticed = sum(one.killed for one in found.values())
@@ -97,15 +99,16 @@ def judge(work: Work, plans_: Sequence[Plan], say: Callable[[str], None]) -> lis
 
 
 def _judged(
-    work: Work, plans_: Sequence[Plan], reached: Mapping[str, Reach], hints: Mapping[int, str]
+    work: Work, plans_: Sequence[Plan], asked: Asked, hints: Mapping[int, str]
 ) -> Iterator[tuple[int, Finding]]:
     if work.jobs == 1:
-        trial = Trial(questions(), reached)
+        trial = Trial(*asked)
         for number, hint in hints.items():
             yield number, trial.judge(plans_[number], hint)
         return
     context = multiprocessing.get_context("spawn")
-    pool = ProcessPoolExecutor(work.jobs, context, _begin, (work.documents, reached))
+    # What Hypothesis draws depends on the modules that a process has loaded: workers are given it.
+    pool = ProcessPoolExecutor(work.jobs, context, _begin, (work.documents, asked))
     try:
         futures = [pool.submit(_judge_one, number, hint) for number, hint in hints.items()]
         yield from _results(futures)
@@ -128,9 +131,9 @@ class _Worker:
     plans: Sequence[Plan]
 
 
-def _begin(documents: tuple[str, ...], reached: Mapping[str, Reach]) -> None:
+def _begin(documents: tuple[str, ...], asked: Asked) -> None:
     _Worker.plans = all_plans(documents)
-    _Worker.trial = Trial(questions(), reached)
+    _Worker.trial = Trial(*asked)
 
 
 def _judge_one(number: int, hint: str) -> tuple[int, Finding]:
