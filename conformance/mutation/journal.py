@@ -11,7 +11,6 @@ from conformance.mutation.trial import Finding, Verdict
 if TYPE_CHECKING:
     from collections.abc import Iterable, Iterator, Mapping, Sequence
     from pathlib import Path
-    from types import TracebackType
     from typing import Self
 
     from conformance.mutation.asking import Question
@@ -58,12 +57,7 @@ class Journal:
                 self._write({**record, "verdict": None})
         return self
 
-    def __exit__(
-        self,
-        kind: type[BaseException] | None,
-        error: BaseException | None,
-        traceback: TracebackType | None,
-    ) -> None:
+    def __exit__(self, *_ended_by: object) -> None:
         if self._writer is not None:
             self._writer.close()
 

@@ -13,7 +13,6 @@ from conformance.validation import validate
 
 if TYPE_CHECKING:
     from pathlib import Path
-    from types import TracebackType
     from typing import Self
 
 M = TypeVar("M", bound=BaseModel)
@@ -79,12 +78,7 @@ class SoakJournal:
             self._writer.write(self._identity.model_dump())
         return self
 
-    def __exit__(
-        self,
-        kind: type[BaseException] | None,
-        error: BaseException | None,
-        traceback: TracebackType | None,
-    ) -> None:
+    def __exit__(self, *_ended_by: object) -> None:
         if self._writer is not None:
             self._writer.close()
 
