@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING, Final, TypeVar
 
 import numpy as np
 
-from conformance.bench.contests import Contest, contests_of
+from conformance.bench.contests import Contest
 from conformance.bench.messages import measure_messages
 from conformance.bench.native.compiler import NoCompilerError
 from conformance.bench.native_jobs import Native
@@ -15,6 +15,7 @@ from conformance.bench.precision import NoExactError
 from conformance.bench.sampling import NoAirError, NoGroundError
 from conformance.bench.scaling import Scaling
 from conformance.bench.scenes import REAL, make_scene, real_scenes
+from conformance.bench.sections import contests_of
 from conformance.bench.settings import SECTIONS
 from conformance.bench.timing import DisagreementError
 from conformance.loader import load_paths

@@ -11,7 +11,7 @@ from weakref import WeakKeyDictionary
 
 import numpy as np
 
-from conformance.bench import engine_jobs as ops
+from conformance.bench import ops
 from conformance.bench.native.compiler import compile_yardstick, find_compiler
 from conformance.bench.native.library import Yardstick
 from conformance.bench.timing import Answer, Job

@@ -5,7 +5,7 @@ from __future__ import annotations
 from functools import partial
 from typing import TYPE_CHECKING, Any, Final
 
-from conformance.bench import engine_jobs as ops
+from conformance.bench import ops
 from conformance.bench.oracle_moves import NONE, collide_job, job_of, move_job, tick_job
 from conformance.candidates.oracle_ops.geometry import oracle_geometry
 from conformance.candidates.oracle_ops.values import sphere, vector, xyz

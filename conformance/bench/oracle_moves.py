@@ -82,7 +82,7 @@ def tick_job(work: RowWork) -> Job:
                 walker.update_object_internal(_QUANTUM)
         return walkers
 
-    return Job(run, lambda done: np.array([_stand(body) for body in done]), len(walkers) * TICKS)
+    return Job(run, lambda done: np.array([_stand(body) for body in done]), len(walkers), TICKS)
 
 
 _QUANTUM: Final = f32(QUANTUM)

@@ -7,6 +7,7 @@ computed here by brute force, says whether that explains it.
 
 from __future__ import annotations
 
+from collections import Counter
 from functools import partial
 from importlib import import_module
 from typing import TYPE_CHECKING, Any, Final, TypeAlias
@@ -15,11 +16,11 @@ from weakref import WeakKeyDictionary
 import numpy as np
 import numpy.typing as npt
 
-from conformance.bench.timing import Answer, Job
+from conformance.bench.timing import Answer, Job, equal_rows
 from engine.constants import EPS
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Mapping, MutableMapping
+    from collections.abc import Callable, Mapping, MutableMapping, Sequence
 
     from conformance.bench.scenes import BenchScene, Floats
     from conformance.bench.timing import Maker
@@ -161,3 +162,31 @@ def unexplained(work: KernelWork, different: npt.NDArray[np.bool_]) -> int:
     spheres = work.spheres[different]
     distances = np.array([distance_to(work.scene.geometry, ball[:3]) for ball in spheres])
     return int((np.abs(distances - spheres[:, 3]) > EXPLAINED).sum()) if len(spheres) else 0
+
+
+class Agreement:
+    """Judges answers that may differ from the first's: counts the differences, and those not explained."""
+
+    def __init__(self) -> None:
+        self._asked: Counter[int] = Counter()
+        self._different: Counter[int] = Counter()
+        self._open: Counter[int] = Counter()
+
+    def __call__(self, work: KernelWork, answers: Sequence[Answer]) -> None:
+        """Take the answers of a round, of a sample of the queries or of all."""
+        for side, some in enumerate(answers):
+            differs = ~equal_rows(answers[0][: len(some)], some)
+            self._asked[side] += len(some)
+            self._different[side] += int(np.count_nonzero(differs))
+            self._open[side] += unexplained(work.part(0, len(some)), differs)
+
+    def share(self, side: int) -> float:
+        """Return the share of queries that are answered as the first does."""
+        return 1.0 - self._different[side] / self._asked[side]
+
+    def explain(self, side: int) -> str:
+        """Say what the differences are."""
+        if not self._different[side]:
+            return "all answers agree"
+        differ = f"{self._different[side]} of {self._asked[side]} differ"
+        return f"{differ}, {self._open[side]} of them beyond retail's slack"

@@ -11,11 +11,12 @@ from typing import TYPE_CHECKING, Any, Final
 
 import yaml
 
-from conformance.bench import engine_jobs as ops
-from conformance.bench.engine_jobs import engine_maker, has_threads
+from conformance.bench import ops
+from conformance.bench.engine_jobs import engine_maker, in_calls
+from conformance.bench.figures import summarise
 from conformance.bench.report import Point
 from conformance.bench.settings import BATCHES, LARGE, THREADS
-from conformance.bench.timing import clock, no_collection
+from conformance.bench.timing import demand_equal, take_turns
 from conformance.candidates.engine_candidate import EngineCandidate
 from conformance.candidates.model_candidate import double, single
 from conformance.candidates.oracle_candidate import OracleCandidate
@@ -24,7 +25,7 @@ from conformance.found import found_document
 from conformance.query import Query
 
 if TYPE_CHECKING:
-    from collections.abc import Mapping
+    from collections.abc import Callable, Iterator, Mapping
     from pathlib import Path
 
     from conformance.bench.report import Report, Worst
@@ -54,14 +55,18 @@ class NoExactError(Exception):
     """The exact model cannot be used here."""
 
 
-def measure_precision(scene: BenchScene, work: RowWork, report: Report) -> None:
+def measure_precision(
+    scene: BenchScene, work: RowWork, clocked: Callable[[], Iterator[RowWork]], report: Report
+) -> None:
     """Add a point for each implementation, and the worst query of retail, to a report.
 
     Parameters
     ----------
     scene : BenchScene
     work : RowWork
-        Moves in it.
+        Moves in it, whose errors are measured.
+    clocked : callable
+        Draws more moves like these, of a warm-up and of each round that the engine is clocked in.
     report : Report
 
     Raises
@@ -74,9 +79,8 @@ def measure_precision(scene: BenchScene, work: RowWork, report: Report) -> None:
     for name in survey.models:
         if name != ENGINE:
             _add_point(report, scene, name, seconds[name] / len(work) * _NANOSECONDS, survey, name)
-    for batch, threads in _calls():
-        label = f"{ENGINE}, batch {batch}, {threads} thread{'s' if threads > 1 else ''}"
-        _add_point(report, scene, label, _engine_cost(work, batch, threads), survey, ENGINE)
+    for label, cost in _engine_costs(clocked()).items():
+        _add_point(report, scene, f"{ENGINE}, {label}", cost, survey, ENGINE)
     facts = report.facts.setdefault("exact", {})
     facts[scene.name] = {
         "queries": len(work),
@@ -115,18 +119,12 @@ def _survey(scene: BenchScene, work: RowWork) -> Survey:
     return survey
 
 
-def _calls() -> list[tuple[int, int]]:
-    """Return batch and threads of every point of the engine."""
-    calls = [(batch, 1) for batch in BATCHES]
-    return [*calls, (LARGE, THREADS)] if has_threads(ops.CONTACT_WALK) else calls
-
-
-def _engine_cost(work: RowWork, batch: int, threads: int) -> float:
-    """Return the nanoseconds of a query, in calls of so many, after a first time that does not count."""
-    maker = engine_maker(ops.CONTACT_WALK, batch, threads)
-    maker(work).run()
-    with no_collection():
-        return clock(maker(work))[0]
+def _engine_costs(works: Iterator[RowWork]) -> dict[str, float]:
+    """Return the median nanoseconds of a move, in calls of so many on so many threads."""
+    makers = {f"batch {batch}, 1 thread": in_calls(ops.CONTACT_WALK, batch) for batch in BATCHES}
+    makers[f"batch {LARGE}, {THREADS} threads"] = engine_maker(ops.CONTACT_WALK, LARGE, THREADS)
+    times = take_turns(list(makers.values()), works, warm_up=next(works), judge=demand_equal)
+    return {label: summarise(each).middle for label, each in zip(makers, times, strict=True)}
 
 
 def _add_point(

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any, Final
+from typing import TYPE_CHECKING, Final
 
 import numpy as np
 
@@ -11,6 +11,7 @@ from conformance.bench.spots import RADIUS, above_floors, beside_walls, near_sur
 from conformance.bench.work import KernelWork, RowWork
 from engine import Body, Pose, body_rows, resolve_many
 from engine import layout as at
+from engine.body import rows_as_numbers
 from engine.constants import (
     ACTIVE_TS,
     CONTACT,
@@ -20,6 +21,7 @@ from engine.constants import (
     ON_WALKABLE,
     ON_WALKABLE_TS,
 )
+from engine.kernels.frame import frame_cache
 
 if TYPE_CHECKING:
     from numpy.random import Generator
@@ -50,9 +52,11 @@ CLEAR: Final = 2.5
 DROPS: Final = (0.2, 0.3)
 """Heights from which movers are put down, metres."""
 ATTEMPTS: Final = 8
-"""How often as many movers are put down as are needed: not all find ground."""
+"""How often movers are put down till enough of them stand: not all find ground."""
 SPARE: Final = 2
-"""How many times more movers are put down in an open hall than are needed."""
+"""How many times more movers are put down than are needed, in an open hall, or after a first attempt."""
+FEW: Final = 32
+"""Movers of a later attempt at least: of one or two, none may find ground."""
 
 
 class NoGroundError(Exception):
@@ -93,12 +97,14 @@ def contact_walk(scene: BenchScene, surfaces: Surfaces, rng: Generator, count: i
         If too few of the movers that are put down find ground.
     """
     found: list[Rows] = []
-    for _ in range(ATTEMPTS):
-        found.append(_strides(scene, surfaces, rng, count))
-        if sum(map(len, found)) >= count:
+    missing, tried = count, 0
+    for attempt in range(ATTEMPTS):
+        several = max(SPARE * missing, FEW) if attempt else count
+        found.append(_strides(scene, surfaces, rng, several))
+        missing, tried = missing - len(found[-1]), tried + several
+        if missing <= 0:
             return RowWork(scene, np.concatenate(found)[:count])
-    standing = sum(map(len, found))
-    raise NoGroundError(f"only {standing} of {ATTEMPTS * count} movers have found ground in {scene.name}")
+    raise NoGroundError(f"only {count - missing} of {tried} movers have found ground in {scene.name}")
 
 
 def _strides(scene: BenchScene, surfaces: Surfaces, rng: Generator, count: int) -> Rows:
@@ -146,7 +152,7 @@ def _put_down(scene: BenchScene, spots: Floats, rng: Generator) -> tuple[Rows, I
     ground = (landed["result"] == 1) & (landed["contact_plane_valid"] == 1)
     ground &= landed["contact_plane"][:, 2] >= float(FLOOR_Z)
     found = np.flatnonzero(ground)
-    return _grounded(rows[found], landed[found]), found
+    return _grounded(rows[found], landed, found), found
 
 
 def free_flight(scene: BenchScene, rng: Generator, count: int) -> RowWork:
@@ -182,22 +188,27 @@ def tree_calls(scene: BenchScene, surfaces: Surfaces, rng: Generator, count: int
 def bodies(scene: BenchScene, surfaces: Surfaces, rng: Generator, count: int) -> RowWork:
     """Return bodies that walk along the ground, where `contact_walk` walks."""
     moves = contact_walk(scene, surfaces, rng, count).rows
-    made = [_body(move, rng.uniform(PACE / 2.0, PACE)) for move in moves]
-    return RowWork(scene, body_rows(scene.world, made))
+    ways = moves["end"][:, -3:] - moves["start"][:, -3:]
+    speeds = rng.uniform(PACE / 2.0, PACE, size=(count, 1))
+    rows = np.repeat(body_rows(scene.world, [_walker(scene)]), count)
+    rows["cell_id"], rows["rotation"] = moves["start"][:, 0], moves["start"][:, 1:5]
+    rows["origin"] = moves["start"][:, -3:]
+    for place in rows_as_numbers(rows):
+        frame_cache(place, 0)
+    rows["velocity"] = single(speeds * ways / np.linalg.norm(ways, axis=1, keepdims=True))
+    rows["contact_plane"] = moves["contact_plane"]
+    rows["contact_plane_cell_id"] = moves["contact_plane_cell_id"]
+    return RowWork(scene, rows)
 
 
-def _body(move: Any, speed: float) -> Body:
-    cell, *rotation = move["start"][:5].tolist()
-    way = move["end"][-3:] - move["start"][-3:]
+def _walker(scene: BenchScene) -> Body:
+    """Return a body that walks on ground; where and how fast is not said."""
     return Body(
-        Pose(int(cell), move["start"][-3:].tolist(), rotation),
-        move["spheres"].tolist(),
+        Pose(scene.pose.cell),
+        SPHERES,
         step_up_height=STEP_UP,
         step_down_height=STEP_DOWN,
         transient_state=int(ACTIVE_TS) | int(CONTACT_TS) | int(ON_WALKABLE_TS),
-        velocity=(speed * way / np.linalg.norm(way)).tolist(),
-        contact_plane=move["contact_plane"].tolist(),
-        contact_plane_cell=int(move["contact_plane_cell_id"]),
         has_movement_manager=True,
         tracks_objects=False,
     )
@@ -217,16 +228,14 @@ def _movers(scene: BenchScene, count: int, state: int) -> Rows:
     return rows
 
 
-def _grounded(rows: Rows, landed: Rows) -> Rows:
-    """Let movers stand where they have landed, and know what they stand on."""
-    rows = rows.copy()
+def _grounded(rows: Rows, landed: Rows, found: Indices) -> Rows:
+    """Let movers stand where those that are found have landed, and know what they stand on."""
     rows["state"] = int(EDGE_SLIDE) | int(CONTACT) | int(ON_WALKABLE)
-    rows["start"] = rows["end"] = landed["curr"]
+    rows["start"] = rows["end"] = landed["curr"][found]
     for name in ("contact_plane", "last_known_contact_plane"):
         rows[f"{name}_valid"] = 1
-        rows[name] = landed["contact_plane"]
-        rows[f"{name}_cell_id"] = landed["contact_plane_cell_id"]
-        rows[f"{name}_is_water"] = landed["contact_plane_is_water"]
+        for suffix in ("", "_cell_id", "_is_water"):
+            rows[f"{name}{suffix}"] = landed[f"contact_plane{suffix}"][found]
     return rows
 
 

@@ -8,15 +8,14 @@ from typing import TYPE_CHECKING, Any, Final
 
 import numpy as np
 
-from conformance.bench import engine_jobs as ops
-from conformance.bench import sampling
-from conformance.bench.engine_jobs import engine_maker, has_entry
+from conformance.bench import ops, sampling
+from conformance.bench.engine_jobs import engine_maker
 from conformance.bench.figures import growth_exponent, summarise
 from conformance.bench.report import Curve
 from conformance.bench.scenes import CELL, bench_pose, grid_scene, hall_geometry, hall_scene, turn
+from conformance.bench.settings import LARGE, SMALL
 from conformance.bench.spots import RADIUS, Surfaces
-from conformance.bench.timing import take_turns
-from conformance.bench.work import rounds_of
+from conformance.bench.timing import accept, take_turns
 from conformance.candidates.engine_ops.world_cache import engine_pose, engine_shape
 from conformance.scenes.bsp_builder import TreeStyle, build
 from conformance.scenes.solids import box
@@ -35,8 +34,6 @@ if TYPE_CHECKING:
     from conformance.scenes.model import Geometry
     from engine import Shape
 
-BATCH: Final = 1000
-"""Queries of a round, asked in one call."""
 LENGTHS: Final = (1, 2, 4, 8, 16, 32)
 """Lengths of a move, in radii of the mover: about as many sub-steps."""
 NEAR: Final = (1, 2, 4, 8, 16, 32)
@@ -76,34 +73,31 @@ class Scaling:
         }
         surfaces = [Surfaces(scene.geometry) for scene in scenes]
         for op, sample in make.items():
-            if has_entry(op):
-                works = [
-                    sample(scene, near, self._rng, self._needed())
-                    for scene, near in zip(scenes, surfaces, strict=True)
-                ]
-                self._measure("polygons", op, [scene.size for scene in scenes], works)
-            else:
-                self._report.omit(f"{op} against polygons", f"this engine has no {ops.ENTRY_POINTS[op]}")
+            draws = [
+                partial(sample, scene, near, self._rng, LARGE)
+                for scene, near in zip(scenes, surfaces, strict=True)
+            ]
+            self._measure("polygons", op, [scene.size for scene in scenes], draws, LARGE)
 
     def lengths(self) -> None:
         """Measure moves that take more and more sub-steps."""
         scene = hall_scene(hall_geometry())
-        works = [self._walk(scene, RADIUS * length, 1.0) for length in LENGTHS]
-        self._measure("sub-steps", ops.CONTACT_WALK, LENGTHS, works)
+        draws = [self._walk(scene, RADIUS * length, 1.0) for length in LENGTHS]
+        self._measure("sub-steps", ops.CONTACT_WALK, LENGTHS, draws)
 
     def near_objects(self) -> None:
         """Measure moves among more and more objects."""
         hall, crate = hall_geometry(), engine_shape(_crate())
         scenes = [hall_scene(hall, _ring(hall_scene(hall), crate, count)) for count in NEAR]
-        works = [self._walk(scene, STROLL, STRAY) for scene in scenes]
-        self._measure("objects in reach", ops.CONTACT_WALK, NEAR, works)
+        draws = [self._walk(scene, STROLL, STRAY) for scene in scenes]
+        self._measure("objects in reach", ops.CONTACT_WALK, NEAR, draws)
 
     def far_objects(self) -> None:
         """Measure the same move in worlds of more and more objects."""
         hall, crate = hall_geometry(), engine_shape(_crate())
         scenes = [hall_scene(hall, others=_elsewhere(hall, crate, count // PER_CELL)) for count in FAR]
-        works = [self._walk(scene, STROLL, STRAY) for scene in scenes]
-        self._measure("objects in the world", ops.CONTACT_WALK, FAR, works)
+        draws = [self._walk(scene, STROLL, STRAY) for scene in scenes]
+        self._measure("objects in the world", ops.CONTACT_WALK, FAR, draws)
 
     def curves(self) -> list[tuple[str, Callable[[], None]]]:
         """Return every curve, with what it is called."""
@@ -114,18 +108,16 @@ class Scaling:
             ("cost against objects in the world", self.far_objects),
         ]
 
-    def _needed(self) -> int:
-        return BATCH * (self._rounds + 1)
+    def _walk(self, scene: BenchScene, length: float, stray: float) -> Callable[[], RowWork]:
+        return partial(sampling.open_walk, scene, self._rng, SMALL, length, stray)
 
-    def _walk(self, scene: BenchScene, length: float, stray: float) -> RowWork:
-        return sampling.open_walk(scene, self._rng, self._needed(), length, stray)
-
-    def _measure(self, name: str, op: str, sizes: Sequence[int], works: Sequence[Any]) -> None:
-        """Let the sizes take turns, and fit a power law to their medians."""
-        number = self._rounds + 1
-        warm_up, *rounds = zip(*(rounds_of(work, BATCH, number) for work in works), strict=True)
-        makers = [partial(_nth, index, engine_maker(op, BATCH)) for index in range(len(works))]
-        times = take_turns(makers, rounds, warm_up=warm_up, judge=_no_judgement)
+    def _measure(
+        self, name: str, op: str, sizes: Sequence[int], draws: Sequence[Callable[[], Any]], batch: int = SMALL
+    ) -> None:
+        """Let the sizes take turns, each round at new queries, and fit a power law to their medians."""
+        rounds = ([draw() for draw in draws] for _ in range(self._rounds + 1))
+        makers = [partial(_nth, index, engine_maker(op, batch)) for index in range(len(draws))]
+        times = take_turns(makers, rounds, warm_up=next(rounds), judge=accept)
         costs = tuple(summarise(each) for each in times)
         exponent = growth_exponent(sizes, [cost.middle for cost in costs])
         self._report.curves.append(Curve(name, op, tuple(sizes), costs, exponent))
@@ -133,10 +125,6 @@ class Scaling:
 
 def _nth(index: int, maker: Callable[[Any], Job], works: Sequence[Any]) -> Job:
     return maker(works[index])
-
-
-def _no_judgement(_work: Any, _answers: Any) -> None:
-    """Accept answers of different questions."""
 
 
 def _crate() -> Geometry:

@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Final
 
-from conformance.bench import engine_jobs as ops
+from conformance.bench import ops
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
@@ -14,7 +14,11 @@ if TYPE_CHECKING:
 BATCHES: Final = (1, 100, 10_000)
 """Queries in a call of the engine."""
 LARGE: Final = 10_000
-"""The batch in which the engine meets everybody else."""
+"""The batch in which the engine meets everybody else: a round's queries, all different."""
+SMALL: Final = 1000
+"""Queries of a round that are asked in smaller calls, too."""
+CROWD: Final = 100_000
+"""A batch so large that to start threads weighs nothing."""
 THREADS: Final = 2
 SECTIONS: Final = (
     *("oracle", "native", "noise", "plans", "threads", "peers", "precision", "scaling", "messages"),
@@ -39,7 +43,7 @@ class Settings:
     fast_rounds : int
         Rounds beside compiled ones.
     sizes : mapping of str to int
-        Operation to the queries of a round beside the oracle.
+        Operation to the queries of a round that one is asked who answers them one by one in Python: a sample.
     grids : tuple of (int, int)
         Rooms along x and y of the scenes of the scaling curves.
     case_step : int

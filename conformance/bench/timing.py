@@ -19,7 +19,9 @@ import numpy.typing as npt
 from conformance.bench.figures import Summary, summarise
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Iterator, Sequence
+    from collections.abc import Callable, Iterable, Iterator, Sequence
+
+    from conformance.bench.work import Work
 
 Answer: TypeAlias = npt.NDArray[np.float64]
 """What was answered: a row of numbers for each query."""
@@ -38,14 +40,17 @@ class Job:
     run : callable
         Does all of it once; nothing else is in the clock.
     answer : callable
-        Turns what `run` returned into a row of numbers for each different query, outside of the clock.
-    count : int
-        How many queries `run` asks.
+        Turns what `run` returned into a row of numbers for each query, outside of the clock.
+    queries : int
+        How many `run` asks.
+    repeats : int
+        How often it asks each, one after the other: the ticks of a body. The time told is that of one.
     """
 
     run: Callable[[], Any]
     answer: Callable[[Any], Answer]
-    count: int
+    queries: int
+    repeats: int = 1
 
 
 class Maker(Protocol):
@@ -79,6 +84,18 @@ class Comparison:
     agreement: float = 1.0
 
 
+def sample_of(maker: Maker, count: int) -> Maker:
+    """Return an implementation that is asked the first `count` queries of its work, where others answer all.
+
+    Queries are drawn in random order: the first ones are as random a sample as any.
+    """
+
+    def job_of_sample(work: Work) -> Job:
+        return maker(work.part(0, count))
+
+    return job_of_sample
+
+
 @contextmanager
 def no_collection() -> Iterator[None]:
     """Keep the garbage collector out of the clock."""
@@ -97,12 +114,12 @@ def clock(job: Job) -> tuple[float, Any]:
     begin = perf_counter()
     done = job.run()
     elapsed = perf_counter() - begin
-    return elapsed * 1e9 / job.count, done
+    return elapsed * 1e9 / (job.queries * job.repeats), done
 
 
 def take_turns(
     makers: Sequence[Maker],
-    rounds: Sequence[Any],
+    rounds: Iterable[Any],
     *,
     warm_up: Any,
     judge: Callable[[Any, Sequence[Answer]], None],
@@ -112,8 +129,9 @@ def take_turns(
     Parameters
     ----------
     makers : sequence of Maker
-    rounds : sequence
-        The work of each round, at least one. Who begins moves on from round to round.
+    rounds : iterable
+        The work of each round, at least one; drawn when its round comes, before the clock starts. Who begins
+        moves on from round to round.
     warm_up : work
         Done first, and not counted.
     judge : callable
@@ -123,6 +141,11 @@ def take_turns(
     -------
     list of list of float
         For each implementation the nanoseconds a query of each round.
+
+    Raises
+    ------
+    DisagreementError
+        If one has not answered every query that it was asked.
     """
     for maker in makers:
         maker(warm_up).run()
@@ -135,9 +158,17 @@ def take_turns(
                 side = (turn + number) % len(jobs)
                 elapsed, done = clock(jobs[side])
                 times[side].append(elapsed)
-                answers[side] = jobs[side].answer(done)
+                answers[side] = _whole(jobs[side], done)
             judge(work, [answers[side] for side in range(len(jobs))])
     return times
+
+
+def _whole(job: Job, done: Any) -> Answer:
+    """Return a job's answers, one for each of its queries."""
+    answers = job.answer(done)
+    if len(answers) != job.queries:
+        raise DisagreementError(f"{len(answers)} answers to {job.queries} queries")
+    return answers
 
 
 def comparison(ours: Sequence[float], theirs: Sequence[float], agreement: float = 1.0) -> Comparison:
@@ -152,19 +183,26 @@ def comparison(ours: Sequence[float], theirs: Sequence[float], agreement: float 
 
 
 def demand_equal(_work: Any, answers: Sequence[Answer]) -> None:
-    """Judge answers that must be equal in every bit.
+    """Judge answers that must be equal in every bit, as far as they go.
+
+    Who is asked less than others is asked the first queries (`sample_of`).
 
     Raises
     ------
     DisagreementError
         Naming the first query that is answered differently.
     """
-    first = answers[0]
-    for other in answers[1:]:
-        if first.shape != other.shape:
-            raise DisagreementError(f"answers of shape {first.shape} and {other.shape}")
-        for query in np.flatnonzero(~equal_rows(first, other)):
-            raise DisagreementError(f"query {query}: {first[query].tolist()} and {other[query].tolist()}")
+    all_of_them = max(answers, key=len)
+    for some in answers:
+        if not len(some) or some.shape[1:] != all_of_them.shape[1:]:
+            raise DisagreementError(f"answers of shape {all_of_them.shape} and {some.shape}")
+        for query in np.flatnonzero(~equal_rows(all_of_them[: len(some)], some)):
+            both = all_of_them[query].tolist(), some[query].tolist()
+            raise DisagreementError(f"query {query}: {both[0]} and {both[1]}")
+
+
+def accept(_work: Any, _answers: Sequence[Answer]) -> None:
+    """Judge answers to different questions: they need not be equal."""
 
 
 def equal_rows(a: Answer, b: Answer) -> npt.NDArray[np.bool_]:

@@ -1,11 +1,9 @@
-"""Work: lists of queries, in the form that all implementations start from, and parts of it."""
+"""Work: lists of different queries, in the form that all implementations start from, and parts of it."""
 
 from __future__ import annotations
 
 from dataclasses import dataclass, fields, replace
-from typing import TYPE_CHECKING, Any, Protocol, Self, TypeVar
-
-import numpy as np
+from typing import TYPE_CHECKING, Protocol, Self
 
 if TYPE_CHECKING:
     from conformance.bench.scenes import BenchScene, Floats
@@ -79,27 +77,6 @@ class RowWork:
         return replace(self, rows=self.rows[first:last])
 
 
-W = TypeVar("W", bound=Work)
-
-
-def rounds_of(work: W, size: int, number: int) -> list[W]:
-    """Cut work into rounds of different queries.
-
-    Raises
-    ------
-    ValueError
-        If there are too few queries.
-    """
-    if len(work) < size * number:
-        raise ValueError(f"{number} rounds of {size} queries need more than {len(work)}")
-    return [work.part(size * i, size * (i + 1)) for i in range(number)]
-
-
 def batches(count: int, batch: int) -> list[tuple[int, int]]:
     """Return first and last of the calls that ask `count` queries, `batch` at a time."""
     return [(first, min(first + batch, count)) for first in range(0, count, batch)]
-
-
-def repeated(array: Any, times: int) -> Any:
-    """Return an array, or records, one after the other several times."""
-    return array if times == 1 else np.concatenate([array] * times)

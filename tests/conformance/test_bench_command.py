@@ -9,8 +9,7 @@ import numpy as np
 import pytest
 
 from conformance import cli, exit_codes
-from conformance.bench import benchmark
-from conformance.bench import engine_jobs as ops
+from conformance.bench import benchmark, ops
 from conformance.bench.contests import Contest
 from conformance.bench.figures import Summary
 from conformance.bench.plots import write_plots
@@ -47,7 +46,7 @@ def test_a_small_run_measures_everything_beside_the_oracle() -> None:
     benchmark.measure(tiny("oracle"), report, lambda _: None)
     assert report.failures == []
     beside = {(line.op, line.batch) for line in report.ratios if line.reference == "oracle"}
-    for op in (ops.FIND_COLLISIONS, ops.CONTACT_WALK, ops.FREE_FLIGHT, ops.TICK):
+    for op in (ops.STRIKE, ops.STEP_DOWN, ops.FIND_COLLISIONS, ops.CONTACT_WALK, ops.FREE_FLIGHT, ops.TICK):
         assert {(op, 1), (op, 100), (op, 10_000)} <= beside
     assert all(line.comparison.ratio.middle > 0.0 for line in report.ratios)
     assert report.facts["polygons"]["room"] == [64]

@@ -8,9 +8,9 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 import pytest
 
-from conformance.bench import engine_jobs as ops
+from conformance.bench import ops
 from conformance.bench.contests import Contest
-from conformance.bench.engine_jobs import engine_maker, has_entry
+from conformance.bench.engine_jobs import engine_maker
 from conformance.bench.native.compiler import (
     Compiler,
     NoCompilerError,
@@ -24,6 +24,7 @@ from conformance.bench.report import Report
 from conformance.bench.scenes import make_scene
 from conformance.bench.settings import quick
 from conformance.bench.timing import Answer, Maker, demand_equal, equal_rows
+from conformance.bench.work import RowWork
 
 if TYPE_CHECKING:
     from pathlib import Path
@@ -52,19 +53,20 @@ def yardstick() -> Native:
         pytest.skip(f"skipped: {error}")
 
 
-def _engine_ops() -> list[str]:
-    """Return what engine and oracle both do."""
-    found = [op for op in MAKERS if has_entry(op)]
-    assert ops.CONTACT_WALK in found
-    return found
-
-
-@pytest.mark.parametrize("op", _engine_ops())
+@pytest.mark.parametrize("op", list(MAKERS))
 @pytest.mark.parametrize("batch", [1, 7, 100])
 def test_engine_answers_as_the_oracle(op: str, batch: int) -> None:
     """Whatever the size of a call, every answer has the oracle's bits."""
     work = contest().work(op, COUNT)
     demand_equal(work, [answer(engine_maker(op, batch), work), answer(oracle_maker(op), work)])
+
+
+@pytest.mark.parametrize("op", [*MAKERS, ops.TOUCH])
+def test_no_query_is_asked_twice(op: str) -> None:
+    """Neither within a round nor in two: what comes again is learnt by heart, and faster then."""
+    works = contest().works(op, 2, COUNT)
+    asked = [work.rows if isinstance(work, RowWork) else work.spheres for work in works]
+    assert len({query.tobytes() for queries in asked for query in queries}) == 2 * COUNT
 
 
 @pytest.mark.parametrize("op", [ops.STRIKE, ops.STEP_DOWN])

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 from functools import cache
 
 import numpy as np
@@ -11,7 +10,7 @@ import pytest
 from conformance.bench import sampling
 from conformance.bench.scenes import BenchScene, hall_geometry, hall_scene, make_scene, single
 from conformance.bench.spots import RADIUS, Surfaces, near_surfaces, up_in_cell
-from conformance.bench.work import batches, repeated, rounds_of
+from conformance.bench.work import batches
 from engine import find_collisions_many, resolve_many
 from engine.constants import ADJUSTED, OK
 
@@ -117,17 +116,13 @@ def test_open_walks_have_one_length() -> None:
     assert np.hypot(steps[:, 0], steps[:, 1]) == pytest.approx(np.full(COUNT, 1.5), abs=1e-4)
 
 
-def test_rounds_share_no_query() -> None:
-    """Work is cut into different parts, and must be enough."""
+def test_parts_share_no_query() -> None:
+    """Parts of work that do not overlap make up the whole."""
     work = sampling.strikes(scene(), surfaces(), generator(), COUNT)
-    parts = rounds_of(work, 50, 4)
+    parts = [work.part(first, first + 50) for first in range(0, COUNT, 50)]
     assert (np.concatenate([part.spheres for part in parts]) == work.spheres).all()
-    with pytest.raises(ValueError, match="more than 200"):
-        rounds_of(work, 101, 2)
 
 
 def test_calls_cover_all_queries() -> None:
     """The last call is as long as what is left."""
     assert batches(5, 2) == [(0, 2), (2, 4), (4, 5)]
-    assert repeated(np.arange(2), 3).tolist() == [0, 1, 0, 1, 0, 1]
-    assert math.prod(repeated(np.arange(2), 1).shape) == 2

@@ -4,20 +4,41 @@ from __future__ import annotations
 
 import gc
 import math
-from typing import Any
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 import pytest
 
+from conformance.bench import timing
 from conformance.bench.timing import (
     Answer,
     DisagreementError,
     Job,
+    clock,
     comparison,
     demand_equal,
     equal_rows,
+    sample_of,
     take_turns,
 )
+
+if TYPE_CHECKING:
+    from collections.abc import Iterator
+
+
+@dataclass(frozen=True)
+class Numbers:
+    """Work that is a number for each query."""
+
+    values: tuple[int, ...]
+
+    def __len__(self) -> int:
+        return len(self.values)
+
+    def part(self, first: int, last: int) -> Numbers:
+        """Return some of them."""
+        return Numbers(self.values[first:last])
 
 
 class Diary:
@@ -91,9 +112,68 @@ def test_a_difference_is_named() -> None:
 
 
 def test_answers_of_different_shape_differ() -> None:
-    """A missing answer is a difference."""
+    """Another number of numbers is a difference."""
     with pytest.raises(DisagreementError, match="shape"):
-        demand_equal(None, [rows(1.0), rows(1.0, 2.0)])
+        demand_equal(None, [rows(1.0), np.array([[1.0, 2.0]])])
+
+
+def test_no_answers_at_all_are_not_equal() -> None:
+    """Nothing has been compared then."""
+    with pytest.raises(DisagreementError, match="shape"):
+        demand_equal(None, [rows(1.0), np.empty((0, 1))])
+
+
+def test_a_sample_is_compared_as_far_as_it_goes() -> None:
+    """Who was asked some of the queries is held against the first answers of who was asked all."""
+    every, some, wrong = rows(1.0, 2.0, 3.0), rows(1.0, 2.0), rows(1.0, 4.0)
+    demand_equal(None, [every, some])
+    for answers in ([every, wrong], [wrong, every]):
+        with pytest.raises(DisagreementError, match="query 1"):
+            demand_equal(None, answers)
+
+
+def test_a_missing_answer_is_noticed() -> None:
+    """Who answers less than what was asked is not clocked."""
+
+    def maker(_work: Any) -> Job:
+        return Job(lambda: None, lambda _done: rows(1.0), 2)
+
+    with pytest.raises(DisagreementError, match="1 answers to 2 queries"):
+        take_turns([maker], [0], warm_up=0, judge=demand_equal)
+
+
+def test_a_sample_is_of_the_first_queries() -> None:
+    """They come in random order; nobody else is asked less for it."""
+    asked: list[list[int]] = []
+
+    def maker(work: Numbers) -> Job:
+        asked.append(list(work.values))
+        return Job(lambda: None, lambda _done: np.zeros((len(work), 1)), len(work))
+
+    makers = [maker, sample_of(maker, 2)]
+    take_turns(makers, [Numbers((4, 5, 6))], warm_up=Numbers((1, 2, 3)), judge=demand_equal)
+    assert asked == [[1, 2, 3], [1, 2], [4, 5, 6], [4, 5]]
+
+
+def test_time_is_told_of_one_repeat(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Two bodies that tick four times each have taken an eighth of the time for a tick."""
+    seconds = iter([1.0, 3.0])
+    monkeypatch.setattr(timing, "perf_counter", lambda: next(seconds))
+    elapsed, done = clock(Job(lambda: "done", lambda _done: rows(1.0, 2.0), 2, repeats=4))
+    assert (elapsed, done) == (0.25e9, "done")
+
+
+def test_rounds_are_drawn_when_they_come() -> None:
+    """Queries of a round need not be kept till the end of the run."""
+    diary: list[tuple[str, Any]] = []
+
+    def works() -> Iterator[int]:
+        for number in (1, 2):
+            diary.append(("drawn", number))
+            yield number
+
+    take_turns([Diary("a", diary)], works(), warm_up=0, judge=demand_equal)
+    assert diary == [("a", 0), ("drawn", 1), ("a", 1), ("drawn", 2), ("a", 2)]
 
 
 def test_ratio_is_their_time_over_ours() -> None:
