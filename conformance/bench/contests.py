@@ -12,10 +12,9 @@ from conformance.bench.oracle_jobs import oracle_maker
 from conformance.bench.peers import MODULES, Agreement, peer_maker
 from conformance.bench.precision import measure_precision
 from conformance.bench.report import Curve, Ratio
-from conformance.bench.settings import BATCHES, CROWD, LARGE, SMALL, THREADS
+from conformance.bench.settings import LARGE, SMALL
 from conformance.bench.spots import Surfaces
 from conformance.bench.timing import accept, comparison, demand_equal, sample_of, take_turns
-from engine import Plan
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterator, Mapping, Sequence
@@ -27,16 +26,12 @@ if TYPE_CHECKING:
     from conformance.bench.scenes import BenchScene
     from conformance.bench.settings import Settings
     from conformance.bench.timing import Answer, Comparison, Job, Maker
+    from conformance.bench.variants import Variant
 
 KERNELS: Final = (ops.STRIKE, ops.STEP_DOWN)
 """The hot kernels, which the yardstick has too."""
-SHORTENED: Final = (ops.CONTACT_WALK, ops.FREE_FLIGHT, ops.TICK)
-"""What takes shortcuts."""
-THREADED: Final = (
-    *((op, LARGE) for op in (*KERNELS, ops.FIND_COLLISIONS, ops.CONTACT_WALK, ops.TICK)),
-    (ops.STRIKE, CROWD),
-)
-"""What threads share, in calls of how many: the fastest also in large ones, where their start weighs less."""
+IN_TURN: Final = (1, LARGE, 100)
+"""Calls beside the oracle. Small ones ask the same queries, and so none comes right after another."""
 FLIGHT_BATCHES: Final = (SMALL, LARGE)
 """Calls in which moves through the air meet moves along the ground."""
 
@@ -73,31 +68,31 @@ class Contest:
     def beside_oracle(self, op: str) -> None:
         """Measure the engine, in calls of every size, beside the oracle."""
         oracle = sample_of(oracle_maker(op), self.settings.sizes[op])
-        makers = [*(in_calls(op, batch) for batch in BATCHES), oracle]
+        makers = [*(in_calls(op, batch) for batch in IN_TURN), oracle]
         *ours, theirs = self._turns(op, makers, self.settings.rounds)
-        for batch, times in zip(BATCHES, ours, strict=True):
+        for batch, times in sorted(zip(IN_TURN, ours, strict=True)):
             self._add(op, "oracle", times, theirs, batch=batch)
 
     def beside_native(self, op: str, native: Native) -> None:
         """Measure a hot kernel of the engine beside the yardstick."""
-        self._beside(op, "native", [engine_maker(op, LARGE), native.maker(op)])
+        makers = [engine_maker(op, LARGE), native.maker(op)]
+        self._add(op, "native", *self._turns(op, makers, self.settings.fast_rounds))
 
-    def beside_itself(self, op: str) -> None:
-        """Measure the engine beside itself: what differs from 1 is noise."""
-        self._beside(op, "engine", [engine_maker(op, LARGE), engine_maker(op, LARGE)], note="noise check")
+    def beside_itself(self, op: str, batch: int, variants: Sequence[Variant]) -> None:
+        """Measure the engine, as it is without a word, beside itself otherwise."""
+        makers = [engine_maker(op, batch), *(variant.maker(op) for variant in variants)]
+        plain, *others = self._turns(op, makers, self.settings.fast_rounds, size=batch)
+        for variant, times in zip(variants, others, strict=True):
+            ours, theirs = (plain, times) if variant.threads == 1 else (times, plain)
+            threads, note = variant.threads, variant.note
+            found = self._add(op, "engine", ours, theirs, batch=batch, threads=threads, note=note)
+            if threads > 1 and batch == LARGE:
+                self._add_threads(op, threads, found)
 
-    def with_shortcuts(self, op: str) -> None:
-        """Measure the engine with its shortcuts beside itself without: the answers are the same."""
-        makers = [engine_maker(op, LARGE), engine_maker(op, LARGE, plan=Plan.none())]
-        self._beside(op, "engine", makers, note="shortcuts, beside none")
-
-    def on_threads(self, op: str, batch: int) -> None:
-        """Measure the engine on several threads beside itself on one."""
-        makers = [engine_maker(op, batch, THREADS), engine_maker(op, batch)]
-        found = self._beside(op, "engine", makers, batch=batch, threads=THREADS, note="beside one thread")
-        costs, name = (found.theirs, found.ours), f"threads, {self.scene.name}, batch {batch}"
-        exponent = growth_exponent((1, THREADS), [cost.middle for cost in costs])
-        self.report.curves.append(Curve(name, op, (1, THREADS), costs, exponent))
+    def _add_threads(self, op: str, threads: int, found: Comparison) -> None:
+        sizes, costs = (1, threads), (found.theirs, found.ours)
+        exponent = growth_exponent(sizes, [cost.middle for cost in costs])
+        self.report.curves.append(Curve(f"threads, {self.scene.name}", op, sizes, costs, exponent))
 
     def air_beside_ground(self) -> None:
         """Measure moves through the air beside moves along the ground, both by the engine."""
@@ -133,22 +128,9 @@ class Contest:
 
     def precision(self) -> None:
         """Measure cost and error of every implementation of a move along the ground."""
-        moves = self.work(ops.CONTACT_WALK, self.settings.sizes[ops.CONTACT_WALK])
+        moves = self.work(ops.CONTACT_WALK, self.settings.exact_moves)
         clocked = partial(self.works, ops.CONTACT_WALK, self.settings.rounds + 1)
         measure_precision(self.scene, moves, clocked, self.report)
-
-    def _beside(
-        self,
-        op: str,
-        reference: str,
-        makers: Sequence[Maker],
-        *,
-        batch: int = LARGE,
-        threads: int = 1,
-        note: str = "",
-    ) -> Comparison:
-        ours, theirs = self._turns(op, makers, self.settings.fast_rounds, size=batch)
-        return self._add(op, reference, ours, theirs, batch=batch, threads=threads, note=note)
 
     def _turns(
         self,

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from functools import partial
+from types import MappingProxyType
 from typing import TYPE_CHECKING, Any, Final
 
 import numpy as np
@@ -22,9 +23,10 @@ if TYPE_CHECKING:
 
 TICKS: Final = 4
 """Ticks of a body in one round."""
+_NOTHING: Final[Mapping[str, Any]] = MappingProxyType({})
 
 
-def engine_maker(op: str, batch: int, threads: int = 1, plan: engine.Plan | None = None) -> Maker:
+def engine_maker(op: str, batch: int, threads: int = 1, options: Mapping[str, Any] = _NOTHING) -> Maker:
     """Return the engine as an implementation of an operation.
 
     Parameters
@@ -35,14 +37,11 @@ def engine_maker(op: str, batch: int, threads: int = 1, plan: engine.Plan | None
         Queries in a call, at most.
     threads : int
         In a call.
-    plan : engine.Plan, optional
-        Which shortcuts it takes; what the engine takes of itself if nothing is said.
+    options : mapping
+        What else the engine's function is told by name.
     """
-    given: dict[str, Any] = {} if threads == 1 else {"threads": threads}
-    if plan is not None:
-        given["plan"] = plan
     function, prepare = _JOBS[op]
-    return partial(prepare, partial(function, **given), batch)
+    return partial(prepare, partial(function, threads=threads, **options), batch)
 
 
 def in_calls(op: str, batch: int) -> Maker:

@@ -11,3 +11,6 @@ CONTACT_WALK: Final = "contact_walk"
 FREE_FLIGHT: Final = "free_flight"
 TICK: Final = "tick"
 TOUCH: Final = "touch"
+
+ENGINE_OPS: Final = (STRIKE, STEP_DOWN, FIND_COLLISIONS, CONTACT_WALK, FREE_FLIGHT, TICK)
+"""What the engine is asked beside the oracle and beside itself, in the order of tables."""

@@ -18,6 +18,7 @@ from conformance.bench.scaling import Scaling
 from conformance.bench.scenes import make_scene
 from conformance.bench.settings import SECTIONS, Settings, full, quick
 from conformance.bench.timing import Comparison, DisagreementError
+from conformance.bench.variants import variants_of
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -31,7 +32,7 @@ LINE = Ratio("room", "strike", "oracle", 1, 1, COMPARED)
 def tiny(*sections: str) -> Settings:
     """Return the smallest run."""
     sizes = {**SIZES, ops.CONTACT_WALK: 4, ops.FREE_FLIGHT: 4, ops.TICK: 2}
-    return Settings(3, sections, ("room",), 1, 1, sizes, ((2, 1), (3, 2)), 200, None)
+    return Settings(3, sections, ("room",), 1, 1, sizes, 4, ((2, 1), (3, 2)), 200, None)
 
 
 def run_with(monkeypatch: pytest.MonkeyPatch, measure: Callable[..., None], *arguments: object) -> int:
@@ -54,11 +55,26 @@ def test_a_small_run_measures_everything_beside_the_oracle() -> None:
 
 
 def test_the_noise_check_is_the_engine_beside_itself() -> None:
-    """It is told as such."""
+    """It is told as such, and nothing else is."""
     report = Report(3)
-    contest = Contest(make_scene("room"), tiny("noise"), report, np.random.default_rng(1))
-    contest.beside_itself(ops.CONTACT_WALK)
-    assert [(line.reference, line.note) for line in report.ratios] == [("engine", "noise check")]
+    benchmark.measure(tiny("noise"), report, lambda _: None)
+    assert report.failures == []
+    assert [(line.op, line.reference, line.note) for line in report.ratios] == [
+        (op, "engine", "noise check") for op in (ops.STRIKE, ops.CONTACT_WALK)
+    ]
+
+
+def test_threads_are_measured_beside_one() -> None:
+    """In two sizes of call where they are fastest; each operation has a curve."""
+    report = Report(3)
+    contest = Contest(make_scene("room"), tiny("threads"), report, np.random.default_rng(1))
+    for op, batch, variants in variants_of(["threads"]):
+        if op == ops.STRIKE:
+            contest.beside_itself(op, batch, variants)
+    assert [(line.batch, line.threads, line.note) for line in report.ratios] == [
+        (batch, 2, "beside one thread") for batch in (10_000, 100_000)
+    ]
+    assert [(curve.name, curve.sizes) for curve in report.curves] == [("threads, room", (1, 2))]
 
 
 def test_shortcuts_are_measured_beside_none() -> None:
@@ -84,7 +100,7 @@ def test_curves_have_a_cost_for_each_size() -> None:
 def test_a_disagreement_is_a_failure_and_the_run_goes_on(monkeypatch: pytest.MonkeyPatch) -> None:
     """Times of wrong answers are not reported."""
 
-    def disagree(_contest: Contest, op: str) -> None:
+    def disagree(_contest: Contest, op: str, **_others: Any) -> None:
         raise DisagreementError(f"{op} is wrong")
 
     monkeypatch.setattr(Contest, "beside_itself", disagree)

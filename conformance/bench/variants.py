@@ -1,0 +1,81 @@
+"""The engine otherwise: without its shortcuts, on several threads, or not otherwise, to see the noise."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+from itertools import groupby
+from typing import TYPE_CHECKING, Any, Final
+
+from conformance.bench import ops
+from conformance.bench.engine_jobs import engine_maker
+from conformance.bench.settings import CROWD, LARGE, THREADS
+from engine import Plan
+
+if TYPE_CHECKING:
+    from collections.abc import Iterator, Mapping, Sequence
+
+    from conformance.bench.timing import Maker
+
+
+@dataclass(frozen=True, slots=True)
+class Variant:
+    """One way in which the engine meets itself as it is without a word, on one thread.
+
+    Attributes
+    ----------
+    section : str
+        Of a run (`conformance.bench.settings.SECTIONS`).
+    ops : tuple of str
+        What is asked of both.
+    note : str
+        What the table says of it.
+    threads : int
+        On how many this one runs.
+    options : mapping
+        What else the engine is told.
+    batch : int
+        Queries in a call.
+    """
+
+    section: str
+    ops: tuple[str, ...]
+    note: str
+    threads: int = 1
+    options: Mapping[str, Any] = field(default_factory=dict)
+    batch: int = LARGE
+
+    def maker(self, op: str) -> Maker:
+        """Return it as an implementation of an operation."""
+        return engine_maker(op, self.batch, self.threads, self.options)
+
+
+VARIANTS: Final = (
+    Variant("noise", (ops.STRIKE, ops.CONTACT_WALK), "noise check"),
+    Variant(
+        "plans",
+        (ops.CONTACT_WALK, ops.FREE_FLIGHT, ops.TICK),
+        "shortcuts, beside none",
+        options={"plan": Plan.none()},
+    ),
+    Variant(
+        "threads",
+        (ops.STRIKE, ops.STEP_DOWN, ops.FIND_COLLISIONS, ops.CONTACT_WALK, ops.TICK),
+        "beside one thread",
+        threads=THREADS,
+    ),
+    Variant("threads", (ops.STRIKE,), "beside one thread", threads=THREADS, batch=CROWD),
+)
+
+
+def variants_of(sections: Sequence[str]) -> Iterator[tuple[str, int, list[Variant]]]:
+    """Yield operation, batch, and the variants that some sections compare at it: they take turns together."""
+    asked = [(op, v) for v in VARIANTS if v.section in sections for op in v.ops]
+    asked.sort(key=_place)
+    for (_, batch), group in groupby(asked, key=_place):
+        together = list(group)
+        yield together[0][0], batch, [variant for _, variant in together]
+
+
+def _place(asked: tuple[str, Variant]) -> tuple[int, int]:
+    op, variant = asked
+    return ops.ENGINE_OPS.index(op), variant.batch
