@@ -13,6 +13,7 @@ from time import perf_counter
 from typing import TYPE_CHECKING, Any, Final
 
 from conformance.bench.figures import Summary, summarise
+from conformance.bench.timing import no_collection
 from conformance.candidates.base import ask_ahead
 from conformance.gate.digests import digest_of
 from conformance.gate.outcome import Check, Stage, Status
@@ -30,6 +31,7 @@ if TYPE_CHECKING:
 WALK_OPS: Final = ("walk", "world_walk", "body_walk")
 """Of many ticks each, so that handing a query over weighs little."""
 MOST_QUERIES: Final = 24
+"""Walks that are timed; `timed_queries` spreads them over all there are."""
 ROUNDS: Final = 5
 PYTHON: Final = ".".join(platform.python_version_tuple()[:2])
 """The version of Python that runs the oracle, without the last number: that one changes no speed."""
@@ -135,11 +137,12 @@ def measure_ratio(
         if all(isinstance(who.answer(query), Result) for who in (oracle, candidate))
     ]
     ratios = []
-    for number in range(ROUNDS if both else 0):
-        say(f"performance: round {number + 1} of {ROUNDS}")
-        order = (oracle, candidate) if number % 2 else (candidate, oracle)
-        seconds = {id(who): _seconds(who, both) for who in order}
-        ratios.append(seconds[id(oracle)] / seconds[id(candidate)])
+    with no_collection():
+        for number in range(ROUNDS if both else 0):
+            say(f"performance: round {number + 1} of {ROUNDS}")
+            order = (oracle, candidate) if number % 2 else (candidate, oracle)
+            seconds = {id(who): _seconds(who, both) for who in order}
+            ratios.append(seconds[id(oracle)] / seconds[id(candidate)])
     return (summarise(ratios) if ratios else None), len(both)
 
 
