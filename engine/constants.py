@@ -219,7 +219,9 @@ BOUND_ROUNDING: Final = 2.0**-15
 """The same for roundings, as a part of a coordinate: 512 stores to float32."""
 BOUND_TILT: Final = 0.0025
 """How much a matrix may stretch whose quaternion is of unit length within EPS5, as a part of a length."""
+BOUND_MOST: Final = 2.0**14
+"""Greatest coordinate, or radius, of geometry that has bounds, metres: float32 counts by 1 mm there."""
 FLIGHT_STEPS: Final = 64.0
 """Most sub-steps that are bounded together."""
 UNBOUNDED: Final = math.inf
-"""Radius of a ball about a polygon that its edges do not bound."""
+"""Radius of a ball about what is not bounded: every ball reaches it."""

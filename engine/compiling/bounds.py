@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, Final
 import numpy as np
 
 from engine import layout as at
-from engine.constants import BLOCK_EDGE, BOUND_ROUNDING, BOUND_TILT, EPS
+from engine.constants import BLOCK_EDGE, BOUND_MOST, BOUND_ROUNDING, BOUND_TILT, EPS, UNBOUNDED
 
 if TYPE_CHECKING:
     from collections.abc import Mapping, Sequence
@@ -27,6 +27,10 @@ _NEAR: Final = float(np.sqrt(EPS))
 """How far apart spheres may be that retail calls overlapping, metres in their own space (01, 3.1)."""
 _UNIT: Final = 1e-4
 """How far a plane's squared normal may be from 1, in a cell that is flown through unseen."""
+_STEEP: Final = 1.01
+"""Greatest squared normal of a fence: a longer one makes more of what a point is rounded by."""
+_LARGEST: Final = 1e18
+"""Metres of which retail's float32 holds the square; of more, it gets infinities and NaN."""
 
 
 class Bounds:
@@ -81,7 +85,7 @@ class Bounds:
         Returns
         -------
         ndarray, shape (n, 4), or None
-            None if something is behind a portal that is reached from everywhere.
+            None if something is behind a portal that is reached from everywhere, or a plane is not unit.
         """
         record = self._record(cell)
         position = self._position(cell)
@@ -98,19 +102,24 @@ class Bounds:
             if fence is None:
                 return None
             fences.append(fence)
-        return _stack(fences, int(at.PLANE_SIZE))
+        planes = _stack(fences, int(at.PLANE_SIZE))
+        steep = (planes[:, : at.VECTOR_SIZE] ** 2).sum(axis=1) > _STEEP
+        return None if steep.any() else planes
 
     def is_passable(self, cell: int, cell_id: int, shape: Shape | None, fences: Array) -> bool:
         """Say whether a cell may be flown through unseen.
 
-        Nobody is kept out of it, its pose is in its own block, and the normals of the planes that a ball is
-        compared with are unit: of its `fences`, and those that split its tree and that contain it.
+        Nobody is kept out of it, its pose is in its own block, the normals of the planes that a ball is
+        compared with are unit: of its `fences`, and those that split its tree and that contain it; and so
+        are the spheres of its tree spheres.
         """
         block = int(self._position(cell).numbers[0]) >> 16
         if block != cell_id >> 16 or self._record(cell)[at.CELL_RESTRICTION] != at.NO_RESTRICTION:
             return False
         planes = [fences[:, : at.VECTOR_SIZE]]
         if shape is not None:
+            if not _are_plain(shape.node_floats[:, at.NODE_SPHERE :]):
+                return False
             nodes = shape.node_ints[:, at.NODE_KIND] == at.KIND_NODE
             planes.append(shape.node_floats[nodes, : at.VECTOR_SIZE])
             if shape.cell_planes is not None:
@@ -150,11 +159,14 @@ class Bounds:
         return _ball_about(_stack(balls, int(at.BALL_SIZE)), float(position.numbers[0]))
 
     def _part(self, part: int) -> Array:
-        """Return a ball outside which nothing is near the part's physics sphere."""
+        """Return a ball outside which nothing is near the part's physics sphere.
+
+        Retail squares the sum of both radii: a negative one reaches as far as a positive one (01, 3.1).
+        """
         position = _Position(self._floats, int(self._ints[at.WORLD_PART_FLOATS] + at.PART_FLOATS * part))
         root = int(self._ints[self._ints[at.WORLD_PART_INTS] + at.PART_INTS * part + at.PART_TREE])
         sphere = self._floats[int(at.NODE_FLOATS) * root + int(at.NODE_SPHERE) :][: int(at.SPHERE_SIZE)]
-        return position.sphere_ball(sphere[: at.RADIUS], float(sphere[at.RADIUS]) + _NEAR)
+        return position.sphere_ball(sphere[: at.RADIUS], abs(float(sphere[at.RADIUS])) + _NEAR)
 
 
 class _Position:
@@ -180,7 +192,10 @@ class _Position:
 
     def sphere_ball(self, center: Array, radius: float) -> Array:
         """Return the ball about a sphere of the frame, scaled, with all that may be added to it."""
-        tilt = BOUND_TILT * (float(np.linalg.norm(center)) + radius)
+        size = float(np.linalg.norm(center)) + radius
+        if not self._scale * size + float(np.abs(self._origin).sum()) < _LARGEST:
+            return self._unbounded()
+        tilt = BOUND_TILT * size
         reach = self._scale * (radius + 2.0 * tilt) + self._rounding
         return np.array([*self.out(self._scale * center), reach, self.numbers[0]])
 
@@ -189,13 +204,28 @@ class _Position:
         ball = self.sphere_ball(shape[:3], float(shape[at.RADIUS]))
         if len(shape) > at.CYLSPHERE_HEIGHT:
             half = 0.5 * self._scale * float(shape[at.CYLSPHERE_HEIGHT])
+            if not half < _LARGEST:
+                return self._unbounded()
             ball[2] += half
             ball[at.RADIUS] += half
         return ball
 
+    def _unbounded(self) -> Array:
+        return np.array([0.0, 0.0, 0.0, UNBOUNDED, self.numbers[0]])
+
 
 def _stack(rows: Sequence[Array], width: int) -> Array:
     return np.array(rows, dtype=np.float64).reshape(-1, width)
+
+
+def _are_plain(spheres: Array) -> bool:
+    """Say whether what overlaps one of a tree's spheres overlaps it with a larger radius, too.
+
+    Not so with a negative radius, which a larger one brings nearer to 0 (BN-1); nor, for all its roundings,
+    of a sphere beyond all measure.
+    """
+    radii = spheres[:, at.RADIUS]
+    return bool((radii >= 0.0).all() and (np.abs(spheres) <= BOUND_MOST).all())
 
 
 def _ball_about(balls: Array, cell: float) -> Array:

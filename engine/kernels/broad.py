@@ -11,7 +11,9 @@ cells are reached within CELL_SLACK = 0.01 m, planes and normals are unit vector
 is for poses, whose quaternions may be off unit length: with a squared length of 1 ± 0.001 (EPS5) the
 matrix is n R + (1 - n) I for a rotation R, so that it stretches nothing by more than 0.002.
 
-A comparison with NaN says that the ball reaches.
+All this is said of geometry as it is meant to be. What is not finite, flat, convex, unit, positive or near
+enough for it has no bounds: `engine.compiling.bounds` and `engine.compiling.balls` tell so when a world is
+compiled. A comparison with NaN says that the ball reaches.
 """
 
 from __future__ import annotations

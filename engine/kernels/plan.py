@@ -79,7 +79,8 @@ def _clear_of(wf: Array, s: Array, ball: int) -> bool:
     """Say whether the mover at the check position is clear of a bounding ball.
 
     The spheres are bounded by one ball, with the larger of both radii for both: retail tests the second
-    sphere of the mover with the radius of the first (07 2, 10.1).
+    sphere of the mover with the radius of the first (07 2, 10.1); and it squares sums of radii, so that a
+    negative one, which only the second may have, reaches as far as a positive one.
     """
     x, y, z = load(s, GLOBAL_SPHERE)
     r = s[GLOBAL_SPHERE + RADIUS]
@@ -90,7 +91,7 @@ def _clear_of(wf: Array, s: Array, ball: int) -> bool:
             0.5 * (y + s[_SECOND_SPHERE + 1]),
             0.5 * (z + s[_SECOND_SPHERE + 2]),
         )
-        r = max(r, s[_SECOND_SPHERE + RADIUS])
+        r = max(r, abs(s[_SECOND_SPHERE + RADIUS]))
     reach = _sphere_reach(s, 0, x, y, z)
     if two:
         reach = max(reach, _sphere_reach(s, 1, x, y, z))

@@ -193,7 +193,7 @@ def ball_about_way(
         ux, uy, uz = 0.5 * (ux - lx), 0.5 * (uy - ly), 0.5 * (uz - lz)
         spread = _length(ux, uy, uz)
         lx, ly, lz = lx + ux, ly + uy, lz + uz
-        r = max(r, s[_SECOND_SPHERE + RADIUS])
+        r = max(r, abs(s[_SECOND_SPHERE + RADIUS]))
         if turning:
             turn = _turn(s, begin, _SECOND_SPHERE)
     if turning:

@@ -43,7 +43,7 @@ POLYGON_COUNT: Final = frozen(4)
 POLYGON_ID: Final = frozen(5)
 POLYGON_SHAPE: Final = frozen(6)
 POLYGON_CONVEX: Final = frozen(7)
-"""1 if no vertex is outside an edge (`engine.compiling.balls.bounding_balls`), else 0."""
+"""1 if it is convex, and flat and fat as well (`engine.compiling.balls.bounding_balls`), else 0."""
 POLYGON_CORNERS: Final = frozen(8)
 """A polygon record: plane, number of vertices, its id, its shape's index, whether it is convex, corners,
 edges; padded to `POLYGON_ALIGNMENT`."""
@@ -204,7 +204,7 @@ BOUNDS_FENCES: Final = BALL_SIZE
 BOUNDS_FENCE_COUNT: Final = BALL_SIZE + 1
 BOUNDS_PASSABLE: Final = BALL_SIZE + 2
 NOT_FENCED: Final = frozen(-1)
-"""Fence count of a cell that has a portal which leads into a cell without containment planes."""
+"""Fence count of a cell with a portal into one without containment planes, or with a fence too steep."""
 
 # --- a grid of clearances (`engine.kernels.clearance`) ---------------------------------------------
 CLEARANCE_CORNER: Final = frozen(0)
