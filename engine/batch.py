@@ -8,8 +8,10 @@ import numpy as np
 
 from engine import layout as at
 from engine.body_layout import MAX_RECORDS, STATUS_CROWDED
+from engine.coherence import order_for
 from engine.errors import CrowdedError, QueryError, RecursionBoundError, UndeterminedError
 from engine.kernels import program
+from engine.kernels.order import CALLS, MOVES
 from engine.object_call import ObjectCall, object_rows
 from engine.plan import FULL_PLAN, NO_PLAN, Plan
 from engine.query import CollisionCall, Move, collision_rows, move_rows
@@ -55,16 +57,22 @@ def resolve(world: World, move: Move, *, plan: Plan = FULL_PLAN) -> Any:
 
 
 def resolve_many(
-    world: World, moves: Sequence[Move] | Rows, *, threads: int = 1, plan: Plan = FULL_PLAN
+    world: World,
+    moves: Sequence[Move] | Rows,
+    *,
+    threads: int = 1,
+    plan: Plan = FULL_PLAN,
+    coherent: bool = True,
 ) -> Rows:
     """Move many movers, each as if it were alone; results in the same order.
 
     `moves` are Move objects, or rows of `engine.layout.QUERY_DTYPE` made by `engine.query.move_rows`.
-    `threads` share them, with the same results for any number. An `UndeterminedError` is raised after all
+    `threads` share them, with the same results for any number, and where `coherent` those that are near each
+    other are answered one after the other (`engine.coherence`). An `UndeterminedError` is raised after all
     have been answered, and holds the answers. See `resolve`.
     """
     rows = moves if isinstance(moves, np.ndarray) else move_rows(world, moves)
-    return _run(program.RESOLVE, world, rows, threads, plan)
+    return _run(program.RESOLVE, world, rows, threads, plan, coherent=coherent)
 
 
 def find_collisions(world: World, call: CollisionCall) -> Any:
@@ -89,14 +97,16 @@ def find_collisions(world: World, call: CollisionCall) -> Any:
     return find_collisions_many(world, [call])[0]
 
 
-def find_collisions_many(world: World, calls: Sequence[CollisionCall] | Rows, *, threads: int = 1) -> Rows:
+def find_collisions_many(
+    world: World, calls: Sequence[CollisionCall] | Rows, *, threads: int = 1, coherent: bool = True
+) -> Rows:
     """Make many collision calls, each as if it were alone; results in the same order.
 
     `calls` are CollisionCall objects, or rows made by `engine.query.collision_rows`.
-    `threads` share them, with the same results for any number. See `find_collisions`.
+    `threads` and `coherent` change no result: see `resolve_many`. See `find_collisions`.
     """
     rows = calls if isinstance(calls, np.ndarray) else collision_rows(world, calls)
-    return _run(program.COLLIDE, world, rows, threads, NO_PLAN)
+    return _run(program.COLLIDE, world, rows, threads, NO_PLAN, coherent=coherent)
 
 
 def find_object_collisions(world: World, call: ObjectCall) -> Any:
@@ -122,18 +132,18 @@ def find_object_collisions(world: World, call: ObjectCall) -> Any:
 
 
 def find_object_collisions_many(
-    world: World, calls: Sequence[ObjectCall] | Rows, *, threads: int = 1
+    world: World, calls: Sequence[ObjectCall] | Rows, *, threads: int = 1, coherent: bool = True
 ) -> Rows:
     """Make many calls of obstacles, each as if it were alone; results in the same order.
 
     `calls` are ObjectCall objects, or rows made by `engine.object_call.object_rows`.
-    `threads` share them, with the same results for any number. See `find_object_collisions`.
+    `threads` and `coherent` change no result: see `resolve_many`. See `find_object_collisions`.
     """
     rows = calls if isinstance(calls, np.ndarray) else object_rows(world, calls)
-    return _run(program.MEET, world, rows, threads, NO_PLAN)
+    return _run(program.MEET, world, rows, threads, NO_PLAN, coherent=coherent)
 
 
-def _run(job: int, world: World, rows: Rows, threads: int, plan: Plan) -> Rows:
+def _run(job: int, world: World, rows: Rows, threads: int, plan: Plan, *, coherent: bool) -> Rows:
     if rows.dtype != at.QUERY_DTYPE:
         raise QueryError("rows", "not of engine.layout.QUERY_DTYPE")
     # Of rows that may only be read Numba would compile everything once more.
@@ -141,9 +151,11 @@ def _run(job: int, world: World, rows: Rows, threads: int, plan: Plan) -> Rows:
     results = np.empty(len(rows), dtype=at.RESULT_DTYPE)
     answers = results.view(np.float64).reshape(len(rows), at.RESULT_SIZE)
     run = runnable(program.run)
+    kind = MOVES if job == program.RESOLVE else CALLS
+    order = order_for(kind, queries, coherent=coherent)
 
     def work(share: Ints) -> None:
-        run(world.floats, world.ints, world.new_row(plan=plan), job, queries, answers, share)
+        run(world.floats, world.ints, world.new_row(plan=plan), job, queries, answers, order, share)
 
     if together(work, len(rows), threads):
         check_status(results["status"], results)

@@ -11,6 +11,7 @@ from engine import body_layout as of_body
 from engine import layout as at
 from engine.batch import check_status
 from engine.body import Body, body_rows, rows_as_numbers
+from engine.coherence import AS_ASKED
 from engine.errors import QueryError
 from engine.kernels import program
 from engine.pose import pose_row
@@ -100,7 +101,7 @@ def place(
     numbers = placements.view(np.float64).reshape(1, int(of_body.PLACEMENT_SIZE))
     bodies = rows_as_numbers(rows)
     row, share = world.new_row(), new_share(1)
-    runnable(program.run)(world.floats, world.ints, row, program.PLACE, bodies, numbers, share)
+    runnable(program.run)(world.floats, world.ints, row, program.PLACE, bodies, numbers, AS_ASKED, share)
     check_status(rows["status"])
     x, y, z = (float(c) for c in given["pose"][at.POSE_ORIGIN :])
     return Placement(PlacementResult(int(given["result"])), rows[0], (x, y, z))

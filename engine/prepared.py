@@ -8,6 +8,7 @@ import numpy as np
 
 from engine import layout as at
 from engine.batch import check_status
+from engine.coherence import AS_ASKED
 from engine.kernels import program
 from engine.kernels.sharing import SHARE_NEXT
 from engine.plan import FULL_PLAN, NO_PLAN, Plan
@@ -76,6 +77,7 @@ class Prepared:
             job,
             rows.view(np.float64).reshape(1, at.QUERY_SIZE),
             self._numbers.reshape(1, at.RESULT_SIZE),
+            AS_ASKED,
             self._share,
         )
 

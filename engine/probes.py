@@ -1,12 +1,15 @@
-"""Probes: how much work queries did, and how much shortcuts saved.
+"""Probes: how much work queries did, how much shortcuts saved, and how many were answered out of turn.
 
 Every result and every body counts its own work (``nodes_visited``, ..., ``skipped``); here it is added up.
+In which order a batch is answered no result can tell; it is counted while somebody asks for it.
 """
 
 from __future__ import annotations
 
+from contextlib import contextmanager
+from contextvars import ContextVar
 from dataclasses import dataclass, fields
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, Final
 
 import numpy as np
 
@@ -14,6 +17,8 @@ from engine import layout as at
 from engine.plan import Stage
 
 if TYPE_CHECKING:
+    from collections.abc import Iterator
+
     from engine.kernels.types import Array
 
 
@@ -68,3 +73,47 @@ def work_of_row(row: Array) -> Work:
     counters = (at.NODES_VISITED, at.POLYGONS_TESTED, at.OBJECTS_TESTED, at.CELLS_LISTED)
     skipped = row[at.SKIPPED : at.SKIPPED + len(Stage)]
     return Work(1, *(int(row[k]) for k in counters), *(int(n) for n in skipped))
+
+
+@dataclass(slots=True)
+class Reordered:
+    """What has been answered in another order than it was asked.
+
+    Attributes
+    ----------
+    queries : int
+        Queries of batches that were reordered, all of them.
+    batches : int
+        Those batches.
+    """
+
+    queries: int = 0
+    batches: int = 0
+
+
+_COUNTING: Final[ContextVar[Reordered | None]] = ContextVar("counting", default=None)
+
+
+@contextmanager
+def count_reordered() -> Iterator[Reordered]:
+    """Count what this thread has answered out of turn (`engine.coherence`) inside the block.
+
+    Yields
+    ------
+    Reordered
+        Grows with each batch.
+    """
+    count = Reordered()
+    token = _COUNTING.set(count)
+    try:
+        yield count
+    finally:
+        _COUNTING.reset(token)
+
+
+def note_reordered(queries: int) -> None:
+    """Count a batch of which so many queries are answered out of turn."""
+    count = _COUNTING.get()
+    if count is not None and queries:
+        count.queries += queries
+        count.batches += 1

@@ -10,11 +10,13 @@ import numpy as np
 from engine.batch import check_status
 from engine.body import Body, body_rows, rows_as_numbers
 from engine.body_layout import BODY_DTYPE
+from engine.coherence import order_for
 from engine.constants import CHECK_ETHEREAL_TS, MAX_ELASTICITY, MAX_QUANTUM
 from engine.effort import check_tick
 from engine.errors import QueryError
 from engine.float32 import float32_array
 from engine.kernels import program, tick_velocity
+from engine.kernels.order import BODIES
 from engine.kernels.tick_gates import MAX_TICKS
 from engine.layout import VECTOR_SIZE
 from engine.plan import FULL_PLAN, Plan
@@ -70,11 +72,19 @@ def step(world: World, body: Any, dt: float, *, plan: Plan = FULL_PLAN) -> Any:
 
 
 def step_many(
-    world: World, rows: Rows, dt: float, ticks: int, *, threads: int = 1, plan: Plan = FULL_PLAN
+    world: World,
+    rows: Rows,
+    dt: float,
+    ticks: int,
+    *,
+    threads: int = 1,
+    plan: Plan = FULL_PLAN,
+    coherent: bool = True,
 ) -> Rows:
     """Let ticks pass for many bodies, each as if it were alone; the rows are changed, and returned.
 
-    `threads` share the bodies, with the same results for any number.
+    `threads` share the bodies, with the same results for any number, and where `coherent` those that are near
+    each other tick one after the other (`engine.coherence`).
     If a body's tick fails, its row is left in the middle of that tick, with the reason in ``status``;
     the other bodies have done all of their ticks when the error is raised. See `step`.
     """
@@ -82,18 +92,27 @@ def step_many(
     if not quantum > 0.0:
         raise QueryError("dt", f"{dt} seconds is not greater than 0")
     numbers = _ready(rows)
+    order = order_for(BODIES, numbers, coherent=coherent)
     check_tick(rows, quantum)
     run, times = runnable(program.run), np.array([[quantum, float(ticks)]])
 
     def work(share: Ints) -> None:
-        run(world.floats, world.ints, world.new_row(plan=plan), program.STEP, numbers, times, share)
+        run(world.floats, world.ints, world.new_row(plan=plan), program.STEP, numbers, times, order, share)
 
     if together(work, len(rows), threads):
         check_status(rows["status"])
     return rows
 
 
-def update_many(world: World, rows: Rows, now: float, *, threads: int = 1, plan: Plan = FULL_PLAN) -> Rows:
+def update_many(
+    world: World,
+    rows: Rows,
+    now: float,
+    *,
+    threads: int = 1,
+    plan: Plan = FULL_PLAN,
+    coherent: bool = True,
+) -> Rows:
     """Let time pass up to `now` for many bodies, in ticks as long as retail's; the rows are changed.
 
     The time since a body's ``update_time`` is divided into ticks of 0.2 seconds and a remainder, which
@@ -109,6 +128,8 @@ def update_many(world: World, rows: Rows, now: float, *, threads: int = 1, plan:
         How many share the bodies; the results are the same for any number.
     plan : Plan
         Which work may be left out.
+    coherent : bool
+        Whether bodies that are near each other tick one after the other (`engine.coherence`).
 
     Notes
     -----
@@ -117,13 +138,14 @@ def update_many(world: World, rows: Rows, now: float, *, threads: int = 1, plan:
     if not math.isfinite(now):
         raise QueryError("now", f"{now} is not a time")
     numbers = _ready(rows)
+    order = order_for(BODIES, numbers, coherent=coherent)
     check_tick(rows, MAX_QUANTUM)
     run = runnable(program.run)
 
     def work(share: Ints) -> None:
         times = np.zeros((3, int(MAX_TICKS)), dtype=np.float64)
         times[0, 0] = now
-        run(world.floats, world.ints, world.new_row(plan=plan), program.UPDATE, numbers, times, share)
+        run(world.floats, world.ints, world.new_row(plan=plan), program.UPDATE, numbers, times, order, share)
 
     if together(work, len(rows), threads):
         check_status(rows["status"])

@@ -16,7 +16,7 @@ from typing import TYPE_CHECKING, Any, Final
 import numpy as np
 from numba.core.dispatcher import Dispatcher
 
-from engine.kernels.ahead import bring_near
+from engine.kernels.ahead import bring_near, bring_nearer
 from engine.kernels.sharing import add_to
 
 if TYPE_CHECKING:
@@ -120,7 +120,7 @@ def _whole(function: Callable[[Any], Any]) -> Callable[[Any], int]:
     return lambda number: function(number) if math.isfinite(number) else _NOT_AN_INTEGER
 
 
-_MACHINE: Final[dict[Any, Callable[..., Any]]] = {add_to: _add_to, bring_near: _ignore}
+_MACHINE: Final[dict[Any, Callable[..., Any]]] = {add_to: _add_to, bring_near: _ignore, bring_nearer: _ignore}
 """Kernels that are made of instructions of the machine, and what stands for them."""
 _MATH: Final = SimpleNamespace(
     nan=np.float64(math.nan),

@@ -7,8 +7,10 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from engine import layout as at
+from engine.coherence import order_for
 from engine.errors import QueryError
 from engine.kernels import tree_calls
+from engine.kernels.order import SPHERES
 from engine.threads import together
 from engine.tracing import runnable
 
@@ -22,7 +24,13 @@ if TYPE_CHECKING:
 
 
 def strike_many(
-    world: World, cell: int, spheres: npt.ArrayLike, movements: npt.ArrayLike, *, threads: int = 1
+    world: World,
+    cell: int,
+    spheres: npt.ArrayLike,
+    movements: npt.ArrayLike,
+    *,
+    threads: int = 1,
+    coherent: bool = True,
 ) -> tuple[npt.NDArray[np.int32], npt.NDArray[np.int32]]:
     """Find for each moving sphere a polygon of a cell that it overlaps and that faces its movement.
 
@@ -37,6 +45,9 @@ def strike_many(
         How it came there; metres, cell-local. Rounded to float32.
     threads : int
         How many share the work; the answers are the same for any number.
+    coherent : bool
+        Whether spheres that are near each other are answered one after the other (`engine.coherence`); the
+        answers are the same, and in the same order.
 
     Returns
     -------
@@ -58,7 +69,7 @@ def strike_many(
     count = len(given)
     struck, polygons = np.empty((2, count), dtype=np.int32)
     rows = (given, _vectors(movements, count, "movements"), struck, polygons)
-    _run(tree_calls.strike_many, world, cell, rows, threads)
+    _run(tree_calls.strike_many, world, cell, rows, threads, coherent=coherent)
     return struck, polygons
 
 
@@ -72,6 +83,7 @@ def step_down_many(
     interps: npt.ArrayLike,
     *,
     threads: int = 1,
+    coherent: bool = True,
 ) -> tuple[Array, Array, npt.NDArray[np.int32]]:
     """Move each sphere back along its movement on to the polygons of a cell that it can walk on.
 
@@ -92,6 +104,9 @@ def step_down_many(
         How much of the movement may be used: retail's walk_interp, 1 at first.
     threads : int
         How many share the work; the answers are the same for any number.
+    coherent : bool
+        Whether spheres that are near each other are answered one after the other (`engine.coherence`); the
+        answers are the same, and in the same order.
 
     Returns
     -------
@@ -125,17 +140,24 @@ def step_down_many(
         centers,
         polygons,
     )
-    _run(tree_calls.step_down_many, world, cell, rows, threads)
+    _run(tree_calls.step_down_many, world, cell, rows, threads, coherent=coherent)
     return centers, left, polygons
 
 
 def _run(
-    kernel: Callable[..., None], world: World, cell: int, rows: Sequence[npt.NDArray[Any]], threads: int
+    kernel: Callable[..., None],
+    world: World,
+    cell: int,
+    rows: Sequence[npt.NDArray[Any]],
+    threads: int,
+    *,
+    coherent: bool,
 ) -> None:
     run, root = runnable(kernel), _tree(world, cell)
+    order = order_for(SPHERES, rows[0], coherent=coherent)
 
     def work(share: Ints) -> None:
-        run(world.floats, world.ints, world.new_row(), root, *rows, share)
+        run(world.floats, world.ints, world.new_row(), root, *rows, order, share)
 
     together(work, len(rows[0]), threads)
 

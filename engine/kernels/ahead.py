@@ -1,4 +1,8 @@
-"""Rows brought near before their turn: a row of results is eleven cache lines that nobody has read yet."""
+"""Rows brought near before their turn: a row of results is eleven cache lines that nobody has read yet.
+
+Near is the first cache, for what takes less time than it takes to bring its rows; else the second, so that
+what the query at hand needs of the world is not driven out of the first.
+"""
 
 from __future__ import annotations
 
@@ -17,13 +21,15 @@ if TYPE_CHECKING:
 LINE: Final = frozen(8)
 """Numbers in a cache line."""
 _FOR_WRITING: Final = 1
-_STAYS: Final = 3
 _DATA: Final = 1
-"""What LLVM is told of a place: it will be written to, soon and more than once, and is no code."""
+"""What LLVM is told of a place: it will be written to, and is no code."""
+_FIRST: Final = 3
+_SECOND: Final = 2
+"""How LLVM numbers caches."""
 
 
-def _hint(_typing: Any, numbers: Any, _place: Any) -> Any:
-    """Generate LLVM's prefetch of an element of an array, which may also be beyond its end."""
+def _hint(cache: int) -> Any:
+    """Return the intrinsic that has an element of an array brought into a cache."""
 
     def generate(context: Any, builder: Any, signature: Any, arguments: Any) -> Any:
         array = context.make_array(signature.args[0])(context, builder, arguments[0])
@@ -31,17 +37,29 @@ def _hint(_typing: Any, numbers: Any, _place: Any) -> Any:
         number = ir.IntType(32)
         kind = ir.FunctionType(ir.VoidType(), [place.type, number, number, number])
         fetch = builder.module.declare_intrinsic("llvm.prefetch", [place.type], kind)
-        builder.call(fetch, [place, *(ir.Constant(number, k) for k in (_FOR_WRITING, _STAYS, _DATA))])
+        builder.call(fetch, [place, *(ir.Constant(number, k) for k in (_FOR_WRITING, cache, _DATA))])
         return context.get_dummy_value()
 
-    return types.void(numbers, types.int64), generate
+    def prefetch(_typing: Any, numbers: Any, _place: Any) -> Any:
+        """Tell Numba about LLVM's prefetch."""
+        return types.void(numbers, types.int64), generate
+
+    return intrinsic(prefetch)
 
 
-_prefetch: Final[Any] = intrinsic(_hint)
+_to_first: Final[Any] = _hint(_FIRST)
+_to_second: Final[Any] = _hint(_SECOND)
 
 
 @inlined
-def bring_near(rows: Array, i: int, size: int) -> None:
-    """Have the i-th row, of `size` numbers, brought near; there need not be one, and nothing changes."""
-    for k in range(0, size, LINE):
-        _prefetch(rows, size * i + k)
+def bring_near(rows: Array, first: int, count: int) -> None:
+    """Have so many numbers of an array's memory, from the first on, brought into the first cache."""
+    for k in range(0, count, LINE):
+        _to_first(rows, first + k)
+
+
+@inlined
+def bring_nearer(rows: Array, first: int, count: int) -> None:
+    """Have so many numbers of an array's memory, from the first on, brought into the second cache."""
+    for k in range(0, count, LINE):
+        _to_second(rows, first + k)

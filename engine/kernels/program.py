@@ -8,12 +8,13 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Final
 
-from engine.body_layout import B_STATUS
+from engine.body_layout import B_RECORDS, B_STATUS, BODY_SIZE
 from engine.constants import frozen
-from engine.kernels.ahead import bring_near
+from engine.kernels.ahead import bring_near, bring_nearer
 from engine.kernels.collisions import collide
 from engine.kernels.compile import entry, inlined, kernel
 from engine.kernels.object_calls import meet
+from engine.kernels.order import turn
 from engine.kernels.resolving import resolve
 from engine.kernels.sharing import SHARE_SIZE, put_back, take
 from engine.kernels.tick import step
@@ -22,7 +23,7 @@ from engine.kernels.tick_placement import place
 from engine.layout import QUERY_SIZE, R_STATUS, RESULT_SIZE, STATUS_OK
 
 if TYPE_CHECKING:
-    from engine.kernels.types import Array, Ints
+    from engine.kernels.types import Array, Ints, Order
 
 RESOLVE: Final = frozen(0)
 """Each row is a query: `engine.kernels.resolving.resolve`."""
@@ -41,6 +42,8 @@ PLACE: Final = frozen(5)
 
 AHEAD: Final = frozen(2)
 """How many moves before its turn a row is brought near: a free flight is over before its rows have come."""
+FAR_AHEAD: Final = frozen(4)
+"""The same for what takes longer, and is brought only half the way."""
 
 
 @inlined
@@ -61,22 +64,36 @@ def _do(wf: Array, wi: Ints, s: Array, job: int, rows: Array, out: Array, i: int
     return out[i, R_STATUS]
 
 
+@inlined
+def _bring(job: int, rows: Array, out: Array, i: int) -> None:
+    """Have a row brought nearer: of a body, what is before the objects it has touched."""
+    if job in (COLLIDE, MEET):
+        bring_nearer(rows, QUERY_SIZE * i, QUERY_SIZE)
+        bring_nearer(out, RESULT_SIZE * i, RESULT_SIZE)
+    elif job != PLACE:
+        bring_nearer(rows, BODY_SIZE * i, B_RECORDS)
+
+
 @kernel
-def _resolve_some(wf: Array, wi: Ints, s: Array, rows: Array, out: Array, first: int, last: int) -> int:
+def _resolve_some(
+    wf: Array, wi: Ints, s: Array, rows: Array, out: Array, order: Order, first: int, last: int
+) -> int:
     """Answer some moves; return how many could not be. A loop of their own spares them the other jobs."""
     failed = 0
-    for i in range(first, last):
-        bring_near(rows, i + AHEAD, QUERY_SIZE)
-        bring_near(out, i + AHEAD, RESULT_SIZE)
+    for k in range(first, last):
+        i, later = turn(order, k), turn(order, min(k + AHEAD, len(rows) - 1))
+        bring_near(rows, QUERY_SIZE * later, QUERY_SIZE)
+        bring_near(out, RESULT_SIZE * later, RESULT_SIZE)
         resolve(wf, wi, s, rows[i], out[i])
         failed += out[i, R_STATUS] != STATUS_OK
     return failed
 
 
 @entry
-def run(wf: Array, wi: Ints, s: Array, job: int, rows: Array, out: Array, share: Ints) -> None:
+def run(wf: Array, wi: Ints, s: Array, job: int, rows: Array, out: Array, order: Order, share: Ints) -> None:
     """Do a job for rows that are taken from a share, one after the other, in one row of state.
 
+    `order` says which row has which turn (`engine.kernels.order`); an empty one: as they lie.
     `out` gets a row of results for each query; what it is for bodies, `STEP`, `UPDATE` and `PLACE` say.
     """
     first = take(share)
@@ -84,9 +101,10 @@ def run(wf: Array, wi: Ints, s: Array, job: int, rows: Array, out: Array, share:
         failed = 0
         last = min(first + share[SHARE_SIZE], len(rows))
         if job == RESOLVE:
-            failed += _resolve_some(wf, wi, s, rows, out, first, last)
+            failed += _resolve_some(wf, wi, s, rows, out, order, first, last)
         else:
-            for i in range(first, last):
-                failed += _do(wf, wi, s, job, rows, out, i) != STATUS_OK
+            for k in range(first, last):
+                _bring(job, rows, out, turn(order, min(k + FAR_AHEAD, len(rows) - 1)))
+                failed += _do(wf, wi, s, job, rows, out, turn(order, k)) != STATUS_OK
         put_back(share, last - first, failed)
         first = take(share)

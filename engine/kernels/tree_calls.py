@@ -7,12 +7,13 @@ from typing import TYPE_CHECKING
 from engine.kernels.bsp_poly import sphere_intersects_poly
 from engine.kernels.bsp_walkable import find_walkable
 from engine.kernels.compile import entry, inlined, kernel
+from engine.kernels.order import turn
 from engine.kernels.rounding import f32
 from engine.kernels.sharing import SHARE_SIZE, put_back, take
 from engine.layout import NO_POLYGON, POLYGON_ID, RADIUS, WALK_INTERP, WALKABLE_ALLOWANCE
 
 if TYPE_CHECKING:
-    from engine.kernels.types import Array, Ints, Vector
+    from engine.kernels.types import Array, Ints, Order, Vector
 
 
 @inlined
@@ -37,6 +38,7 @@ def _strike_some(
     movements: Array,
     struck: Ints,
     polygons: Ints,
+    order: Order,
     first: int,
     last: int,
 ) -> None:
@@ -44,7 +46,8 @@ def _strike_some(
 
     retail: what calls BSPNODE::sphere_intersects_poly 0x0053CA30, 03 2
     """
-    for i in range(first, last):
+    for k in range(first, last):
+        i = turn(order, k)
         x, y, z = _vector(spheres, i)
         mx, my, mz = _vector(movements, i)
         r = f32(spheres[i, RADIUS])
@@ -65,6 +68,7 @@ def _step_some_down(
     interps: Array,
     centers: Array,
     polygons: Ints,
+    order: Order,
     first: int,
     last: int,
 ) -> None:
@@ -72,7 +76,8 @@ def _step_some_down(
 
     retail: what calls BSPNODE::find_walkable 0x0053CC80, 03 5
     """
-    for i in range(first, last):
+    for k in range(first, last):
+        i = turn(order, k)
         x, y, z = _vector(spheres, i)
         r = f32(spheres[i, RADIUS])
         mx, my, mz = _vector(movements, i)
@@ -95,13 +100,14 @@ def strike_many(
     movements: Array,
     struck: Ints,
     polygons: Ints,
+    order: Order,
     share: Ints,
 ) -> None:
     """Strike with spheres that are taken from a share."""
     first = take(share)
     while first < len(spheres):
         last = min(first + share[SHARE_SIZE], len(spheres))
-        _strike_some(wf, wi, s, root, spheres, movements, struck, polygons, first, last)
+        _strike_some(wf, wi, s, root, spheres, movements, struck, polygons, order, first, last)
         put_back(share, last - first, 0)
         first = take(share)
 
@@ -119,6 +125,7 @@ def step_down_many(
     interps: Array,
     centers: Array,
     polygons: Ints,
+    order: Order,
     share: Ints,
 ) -> None:
     """Step down with spheres that are taken from a share."""
@@ -137,6 +144,7 @@ def step_down_many(
             interps,
             centers,
             polygons,
+            order,
             first,
             last,
         )

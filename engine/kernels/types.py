@@ -13,6 +13,8 @@ Ints: TypeAlias = npt.NDArray[np.int64]
 """A world's integers."""
 Bytes: TypeAlias = npt.NDArray[np.uint8]
 """Small numbers, many of them."""
+Order: TypeAlias = npt.NDArray[np.int32]
+"""Numbers of rows, in the order in which they are answered."""
 Vector: TypeAlias = tuple[float, float, float]
 """x, y, z."""
 Quaternion: TypeAlias = tuple[float, float, float, float]

@@ -9,6 +9,7 @@ from engine_scenes import CELL, R, at, floor_and_wall, mover, world_of
 
 from engine import Move
 from engine import layout as of
+from engine.coherence import AS_ASKED
 from engine.kernels import program
 from engine.kernels.ahead import bring_near
 from engine.kernels.sharing import SHARE_DONE, SHARE_FAILED, SHARE_NEXT, SHARE_SIZE, take
@@ -27,7 +28,7 @@ def test_rows_are_taken_a_few_at_a_time() -> None:
     out = np.full((COUNT, int(of.RESULT_SIZE)), np.nan)
     share = new_share(COUNT, 2)
     share[SHARE_SIZE] = 7
-    program.run(WORLD.floats, WORLD.ints, WORLD.new_row(), program.RESOLVE, rows, out, share)
+    program.run(WORLD.floats, WORLD.ints, WORLD.new_row(), program.RESOLVE, rows, out, AS_ASKED, share)
     assert share[SHARE_NEXT] == 7 * (COUNT // 7 + 2)
     assert (share[SHARE_DONE], share[SHARE_FAILED]) == (COUNT, 0)
     assert not np.isnan(out).any()
@@ -39,7 +40,7 @@ def test_who_begins_in_the_middle_answers_the_rest() -> None:
     out = np.full((COUNT, int(of.RESULT_SIZE)), np.nan)
     share = new_share(COUNT)
     share[SHARE_NEXT] = COUNT - 10
-    program.run(WORLD.floats, WORLD.ints, WORLD.new_row(), program.RESOLVE, rows, out, share)
+    program.run(WORLD.floats, WORLD.ints, WORLD.new_row(), program.RESOLVE, rows, out, AS_ASKED, share)
     assert np.isnan(out).all(axis=1).sum() == COUNT - 10
     assert share[SHARE_DONE] == 10
 
@@ -52,7 +53,7 @@ def test_no_addition_is_lost() -> None:
 
     def work(share: np.ndarray) -> None:
         share[SHARE_SIZE] = 1
-        program.run(WORLD.floats, WORLD.ints, WORLD.new_row(), program.RESOLVE, rows, out, share)
+        program.run(WORLD.floats, WORLD.ints, WORLD.new_row(), program.RESOLVE, rows, out, AS_ASKED, share)
 
     for share in shares:
         with ThreadPoolExecutor(4) as threads:

@@ -23,6 +23,7 @@ from engine import (
     step_many,
     update_many,
 )
+from engine.coherence import AS_ASKED
 from engine.constants import FLOOR_Z
 from engine.kernels.program import RESOLVE
 from engine.kernels.program import run as compiled
@@ -247,7 +248,7 @@ def test_an_error_leaves_a_call_unfinished() -> None:
     out = np.zeros((1, int(RESULT_SIZE)))
     floats, row = world.floats.view(Unreadable), world.new_row()
     with recording((STATE, BSP)) as trace, pytest.raises(FatalError):
-        runnable(compiled)(floats, world.ints, row, RESOLVE, queries, out, new_share(1))
+        runnable(compiled)(floats, world.ints, row, RESOLVE, queries, out, AS_ASKED, new_share(1))
     assert told(trace) == [("Call", "A", UNFINISHED, "find_env_collisions")]
 
 

@@ -16,6 +16,7 @@ from conformance.candidates.engine_ops.worlds import engine_world
 from engine import layout as at
 from engine.batch import check_status
 from engine.body_layout import BODY_DTYPE, OUTCOMES
+from engine.coherence import AS_ASKED
 from engine.constants import CONTACT_TS, SLIDING_TS
 from engine.kernels import program, tick_velocity
 from engine.plan import FULL_PLAN
@@ -91,7 +92,7 @@ class Recorder:
             state = self.world.new_row(trace_capacity=capacity)
             step, times = runnable(program.run), np.array([[quantum, 1.0]])
             bodies, world = row.reshape(1, -1), self.world
-            step(world.floats, world.ints, state, program.STEP, bodies, times, new_share(1))
+            step(world.floats, world.ints, state, program.STEP, bodies, times, AS_ASKED, new_share(1))
             check_status(self.body.record["status"].reshape(1))
             trace = trace_text(state, self.world.ints)
             if trace is not None:
@@ -109,7 +110,7 @@ class Recorder:
         state = world.new_row(plan=FULL_PLAN)
         times = np.array([[quantum, 1.0]])
         bodies = row.reshape(1, -1)
-        program.run(world.floats, world.ints, state, program.STEP, bodies, times, new_share(1))
+        program.run(world.floats, world.ints, state, program.STEP, bodies, times, AS_ASKED, new_share(1))
         note_work(state)
         return row.view(BODY_DTYPE)[0], world.touched(state)
 

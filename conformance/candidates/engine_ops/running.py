@@ -15,6 +15,7 @@ from conformance.candidates.engine_ops.rows import numbers_of
 from conformance.candidates.engine_ops.state_block import trace_text
 from engine import layout as at
 from engine.batch import check_status
+from engine.coherence import AS_ASKED
 from engine.kernels import program
 from engine.plan import FULL_PLAN
 from engine.threads import new_share
@@ -59,7 +60,7 @@ def run_noting(job: int, world: World, row: Any) -> tuple[Any, str, list[int]]:
         state = world.new_row(trace_capacity=capacity)
         result = np.zeros(1, dtype=at.RESULT_DTYPE)
         numbers, answer = numbers_of(row).reshape(1, -1), result.view(np.float64).reshape(1, -1)
-        runnable(program.run)(world.floats, world.ints, state, job, numbers, answer, new_share(1))
+        runnable(program.run)(world.floats, world.ints, state, job, numbers, answer, AS_ASKED, new_share(1))
         check_status(result["status"])
         trace = trace_text(state, world.ints)
         if trace is not None:
@@ -77,7 +78,7 @@ def _run_with_shortcuts(world: World, row: Any) -> tuple[Any, list[int]]:
     state = world.new_row(plan=FULL_PLAN)
     result = np.zeros(1, dtype=at.RESULT_DTYPE)
     query, answer = (numbers.reshape(1, -1) for numbers in (numbers_of(row), result.view(np.float64)))
-    program.run(world.floats, world.ints, state, program.RESOLVE, query, answer, new_share(1))
+    program.run(world.floats, world.ints, state, program.RESOLVE, query, answer, AS_ASKED, new_share(1))
     note_work(state)
     check_status(result["status"])
     return result[0], world.touched(state)

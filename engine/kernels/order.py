@@ -1,0 +1,208 @@
+"""The order in which a batch is answered: queries that are near each other one after the other.
+
+What a query has read, and how its branches went, is then at hand for the next: neither is if that is asked
+somewhere else. A query is put into one of some thousand buckets by where it is asked; buckets that are near
+in space are near in number (a Morton curve), and within one, queries stay in the order in which they came.
+The buckets begin anew every 128 metres: no bounds have to be found first, nothing depends on how far a
+batch spreads, and who meets a stranger in his bucket only loses a little time.
+"""
+
+from __future__ import annotations
+
+import math
+from typing import TYPE_CHECKING, Final
+
+from engine.body_layout import B_ORIGIN, B_POSITION, B_TRANSIENT, BODY_SIZE
+from engine.constants import ACTIVE_TS, BLOCK_EDGE, frozen
+from engine.kernels.ahead import bring_near
+from engine.kernels.compile import entry, inlined, kernel
+from engine.kernels.indexing import unsigned
+from engine.layout import (
+    COLLISION_INFO,
+    CONTACT_VALID,
+    POSE_ORIGIN,
+    POSE_SIZE,
+    POSITION_SIZE,
+    Q_COLLISION_INFO,
+    Q_END,
+    QUERY_SIZE,
+)
+
+if TYPE_CHECKING:
+    from engine.kernels.types import Array, Order
+
+SPHERES: Final = frozen(0)
+"""Rows that begin with where they are: centres of spheres."""
+CALLS: Final = frozen(1)
+"""Rows of queries, asked where they end."""
+MOVES: Final = frozen(2)
+"""Rows of queries, asked where they end; who stands on nothing flies, and is not worth it."""
+BODIES: Final = frozen(3)
+"""Rows of bodies; one that rests is not worth it."""
+
+ACROSS: Final = frozen(6)
+"""Bits of a place along x, and along y."""
+UPWARDS: Final = frozen(2)
+"""Bits of a place along z: few, since what is asked about lies on few floors."""
+BUCKETS: Final = frozen(1 << (2 * ACROSS + UPWARDS))
+"""How many there are."""
+
+WIDTH: Final = 2.0
+"""Of a bucket along x and y, metres: about a mover's reach."""
+HEIGHT: Final = 4.0
+"""Of a bucket along z, metres."""
+_BLOCK: Final = frozen(int(BLOCK_EDGE / WIDTH))
+"""Buckets along the side of a landblock."""
+SMALLEST: Final = frozen(1000)
+"""Rows that are worth sorting: fewer gain less than it takes to count buckets."""
+SAMPLE: Final = frozen(128)
+"""About so many rows are looked at first."""
+FEWEST: Final = frozen(16)
+"""Columns of buckets that these lie in at least: who is in a square of 8 metres is near all others anyway."""
+EARLY: Final = frozen(12)
+"""How many rows before its bucket is asked for a row is brought near."""
+_FAR: Final = 1e15
+"""Metres: numbers up to this are whole numbers of buckets; what is beyond, or no number, is at 0."""
+_CONTACT_VALID: Final = frozen(Q_COLLISION_INFO - COLLISION_INFO + CONTACT_VALID)
+"""Whether a query's mover stands on something."""
+
+
+@inlined
+def turn(order: Order, k: int) -> int:
+    """Return which row is the k-th to be answered."""
+    return unsigned(order[unsigned(k)]) if len(order) > 0 else unsigned(k)
+
+
+@inlined
+def _whole(value: float) -> int:
+    """Return the whole number below a number; 0 for one that is too large for that, and for NaN."""
+    return math.floor(value) if abs(value) < _FAR else 0
+
+
+@inlined
+def _spread(bits: int) -> int:
+    """Move each of the lowest eight bits of both halves of a number to twice its place."""
+    bits = (bits | bits << 4) & 0x0F0F0F0F0F0F0F0F
+    bits = (bits | bits << 2) & 0x3333333333333333
+    return (bits | bits << 1) & 0x5555555555555555
+
+
+@inlined
+def _bucket(east: int, north: int, z: float) -> int:
+    """Return the bucket of a place, given in widths to the east and to the north, and in metres upwards."""
+    mask = (1 << ACROSS) - 1
+    both = _spread((east & mask) | (north & mask) << 32)
+    level = _whole(z / HEIGHT) & ((1 << UPWARDS) - 1)
+    return ((both | both >> 31) & ((1 << 2 * ACROSS) - 1)) << UPWARDS | level
+
+
+@inlined
+def _bucket_of_pose(row: Array, cell: int, origin: int) -> int:
+    """Return the bucket of a pose: a cell id, of whose landblock the origin's axes are."""
+    block = _whole(row[cell]) >> 16
+    east = _BLOCK * (block >> 8) + _whole(row[origin] / WIDTH)
+    north = _BLOCK * block + _whole(row[origin + 1] / WIDTH)
+    return _bucket(east, north, row[origin + 2])
+
+
+@inlined
+def _bucket_of(kind: int, row: Array) -> int:
+    """Return the bucket of a row."""
+    if kind == SPHERES:
+        return _bucket(_whole(row[0] / WIDTH), _whole(row[1] / WIDTH), row[2])
+    if kind == BODIES:
+        return _bucket_of_pose(row, B_POSITION, B_ORIGIN)
+    return _bucket_of_pose(row, Q_END, Q_END + POSE_ORIGIN)
+
+
+@inlined
+def _bring_place(kind: int, rows: Array, i: int) -> None:
+    """Have what the bucket of a row depends on brought near; spheres lie close enough without."""
+    if kind == BODIES:
+        bring_near(rows, BODY_SIZE * i + B_POSITION, POSITION_SIZE)
+    elif kind != SPHERES:
+        bring_near(rows, QUERY_SIZE * i + Q_END, POSE_SIZE)
+
+
+@inlined
+def _is_worth_it(kind: int, row: Array) -> bool:
+    """Say whether the query of a row takes longer than to read a row out of turn."""
+    if kind == BODIES:
+        return int(row[B_TRANSIENT]) & ACTIVE_TS != 0
+    return kind != MOVES or row[_CONTACT_VALID] != 0.0
+
+
+@inlined
+def _pays(kind: int, rows: Array, first: int, last: int, buckets: Order) -> bool:
+    """Say, from a few of some rows, whether most are worth it, and not near each other as they are.
+
+    `buckets` are empty, before and afterwards.
+    """
+    step = max((last - first) // SAMPLE, 1)
+    asked, worth, columns = 0, 0, 0
+    for i in range(first, last, step):
+        row = rows[unsigned(i)]
+        column = unsigned(_bucket_of(kind, row) >> UPWARDS)
+        asked += 1
+        worth += _is_worth_it(kind, row)
+        columns += buckets[column] == 0
+        buckets[column] = 1
+    for i in range(first, last, step):
+        buckets[unsigned(_bucket_of(kind, rows[unsigned(i)]) >> UPWARDS)] = 0
+    return 2 * worth > asked and columns >= FEWEST
+
+
+@kernel
+def put_in_order(
+    kind: int, rows: Array, first: int, last: int, order: Order, own: Order, buckets: Order
+) -> int:
+    """Sort some rows by their buckets, each bucket in the order in which its rows lie, if that pays.
+
+    It is a counting sort.
+
+    Parameters
+    ----------
+    kind : int
+        What rows they are: one of the numbers above.
+    rows : ndarray, shape (n, size)
+    first, last : int
+        Which rows: those before `last`.
+    order : ndarray of int32, shape (n,)
+        Takes their numbers, at the same places.
+    own : ndarray of int32, shape (n,)
+        Room for each row's bucket, at the same places.
+    buckets : ndarray of int32, shape (BUCKETS,)
+        Room for how many rows are in each.
+
+    Returns
+    -------
+    int
+        How many rows have been sorted: all of them or none.
+    """
+    for b in range(BUCKETS):
+        buckets[b] = 0
+    if last - first < SMALLEST or not _pays(kind, rows, first, last, buckets):
+        for i in range(first, last):
+            order[unsigned(i)] = i
+        return 0
+    for i in range(first, last):
+        _bring_place(kind, rows, i + EARLY)
+        bucket = unsigned(_bucket_of(kind, rows[unsigned(i)]))
+        own[unsigned(i)] = bucket
+        buckets[bucket] += 1
+    place = first
+    for b in range(BUCKETS):
+        count = buckets[b]
+        buckets[b] = place
+        place += count
+    for i in range(first, last):
+        bucket = unsigned(own[unsigned(i)])
+        order[unsigned(buckets[bucket])] = i
+        buckets[bucket] += 1
+    return last - first
+
+
+@entry
+def order_all(kind: int, rows: Array, order: Order, own: Order, buckets: Order) -> int:
+    """Sort all rows; see `put_in_order`."""
+    return put_in_order(kind, rows, 0, len(rows), order, own, buckets)

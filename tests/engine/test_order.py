@@ -1,0 +1,139 @@
+"""The order of a batch: by place, whatever the numbers are; and only where it pays."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+import numpy as np
+import pytest
+from engine_scenes import CELL
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from engine import layout as of
+from engine.body_layout import BODY_DTYPE
+from engine.coherence import AS_ASKED, order_of
+from engine.constants import ACTIVE_TS
+from engine.kernels.order import BODIES, BUCKETS, CALLS, MOVES, SMALLEST, SPHERES, order_all
+
+if TYPE_CHECKING:
+    from engine.kernels.types import Array, Order
+    from engine.query import Rows
+
+COUNT = 2 * int(SMALLEST)
+EAST = CELL + 0x01000000
+"""A cell of the block to the east of the usual one."""
+
+
+def order_at(kind: int, rows: Array) -> tuple[Order, Order]:
+    """Return the order of rows, and each row's bucket."""
+    order, own = np.empty((2, len(rows)), dtype=np.int32)
+    assert order_all(kind, rows, order, own, np.empty(int(BUCKETS), dtype=np.int32)) == len(rows)
+    return order, own
+
+
+def spheres_within(side: float, count: int = COUNT) -> Array:
+    """Return spheres at random places of a square, metres."""
+    rng = np.random.default_rng(1)
+    return np.column_stack([rng.uniform(0.0, side, size=(count, 2)), np.ones(count), np.full(count, 0.5)])
+
+
+def queries_within(side: float) -> Rows:
+    """Return queries that end at random places of a square, by movers that stand on something."""
+    rows = np.zeros(COUNT, dtype=of.QUERY_DTYPE)
+    rows["end"][:, 0] = CELL
+    rows["end"][:, -3:] = spheres_within(side)[:, :3]
+    rows["contact_plane_valid"] = 1.0
+    return rows
+
+
+def bodies_within(side: float) -> Rows:
+    """Return bodies that are active, at random places of a square."""
+    rows = np.zeros(COUNT, dtype=BODY_DTYPE)
+    rows["cell_id"], rows["transient_state"] = CELL, ACTIVE_TS
+    rows["origin"] = spheres_within(side)[:, :3]
+    return rows
+
+
+def numbers(rows: Rows) -> Array:
+    """Return rows as kernels see them."""
+    return rows.view(np.float64).reshape(len(rows), -1)
+
+
+def test_rows_are_sorted_by_place_and_then_as_they_lie() -> None:
+    """Every row once; those of a bucket in the order in which they came."""
+    order, own = order_at(SPHERES, spheres_within(60.0))
+    assert order.tolist() == np.argsort(own, kind="stable").tolist()
+    assert np.unique(own).size > 700
+
+
+def test_who_is_in_one_bucket_is_near() -> None:
+    """Nobody is farther from his neighbour in the order than a few metres, nearly always."""
+    spheres = spheres_within(60.0)
+    order, own = order_at(SPHERES, spheres)
+    apart = np.abs(np.diff(spheres[order, :2], axis=0))
+    assert (apart[np.diff(own[order]) == 0] < 2.0).all()
+    assert np.median(apart.max(axis=1)) < 3.0
+
+
+@pytest.mark.parametrize("z", [-3.9, 0.5, 7.0])
+def test_floors_are_kept_apart(z: float) -> None:
+    """Four metres are another bucket, also below the block's zero."""
+    low, high = spheres_within(60.0), spheres_within(60.0)
+    low[:, 2], high[:, 2] = z, z + 4.0
+    assert (order_at(SPHERES, low)[1] != order_at(SPHERES, high)[1]).all()
+
+
+def test_blocks_are_in_one_space() -> None:
+    """A query a step beyond the border of a landblock is in the bucket of who is a step before it."""
+    rows = queries_within(40.0)
+    rows["end"][0, -3:], rows["end"][1, -3:] = (192.5, 30.0, 1.0), (0.5, 30.0, 1.0)
+    rows["end"][1, 0] = EAST
+    for kind in (CALLS, MOVES):
+        assert len(set(order_at(kind, numbers(rows))[1][:2].tolist())) == 1
+
+
+def test_bodies_are_where_they_are() -> None:
+    """In the same buckets as queries that end there."""
+    queries, bodies = queries_within(40.0), bodies_within(40.0)
+    of_queries, of_bodies = order_at(MOVES, numbers(queries)), order_at(BODIES, numbers(bodies))
+    assert np.array_equal(of_queries, of_bodies)
+
+
+@settings(max_examples=50)
+@given(st.lists(st.floats(allow_nan=True, allow_infinity=True), min_size=4, max_size=12))
+def test_no_number_is_too_strange(strange: list[float]) -> None:
+    """Infinities, NaN and what is larger than any integer are put somewhere: every row keeps its turn."""
+    spheres, queries = spheres_within(60.0, int(SMALLEST)), queries_within(60.0)
+    spheres[: len(strange), :3] = np.array(strange)[:, np.newaxis]
+    queries["end"][: len(strange), -3:] = spheres[: len(strange), :3]
+    queries["end"][: len(strange), 0] = strange
+    for kind, rows in ((SPHERES, spheres), (CALLS, numbers(queries))):
+        order = order_of(kind, rows)
+        assert np.array_equal(np.sort(order), np.arange(len(rows)))
+
+
+def test_few_are_answered_as_they_lie() -> None:
+    """Sorting them takes longer than it saves."""
+    spheres = spheres_within(60.0, int(SMALLEST))
+    assert len(order_of(SPHERES, spheres)) == SMALLEST
+    assert order_of(SPHERES, spheres[1:]) is AS_ASKED
+
+
+def test_who_is_near_everybody_is_answered_in_turn() -> None:
+    """All within a room are near each other as they lie, for every kind of rows."""
+    for kind, rows in ((SPHERES, spheres_within(6.0)), (CALLS, numbers(queries_within(6.0)))):
+        assert order_of(kind, rows) is AS_ASKED
+    assert order_of(BODIES, numbers(bodies_within(6.0))) is AS_ASKED
+
+
+def test_what_takes_no_time_is_answered_in_turn() -> None:
+    """If most movers are in the air, or most bodies rest; single calls are no flights."""
+    rows, bodies = queries_within(60.0), bodies_within(60.0)
+    rows["contact_plane_valid"][: COUNT // 4] = 0.0
+    bodies["transient_state"][: COUNT // 4] = 0.0
+    assert len(order_of(MOVES, numbers(rows))) == len(order_of(BODIES, numbers(bodies))) == COUNT
+    rows["contact_plane_valid"][: 3 * COUNT // 4] = 0.0
+    bodies["transient_state"][: 3 * COUNT // 4] = 0.0
+    assert order_of(MOVES, numbers(rows)) is order_of(BODIES, numbers(bodies)) is AS_ASKED
+    assert len(order_of(CALLS, numbers(rows))) == COUNT
