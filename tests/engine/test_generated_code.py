@@ -20,6 +20,7 @@ from engine.kernels.vector import normalize_check_small
 FLOATS = types.Array(types.float64, 1, "C")
 INTS = types.Array(types.int64, 1, "C")
 ROWS = types.Array(types.float64, 2, "C")
+ORDER = types.Array(types.int32, 1, "C")
 F = types.float64
 N = types.int64
 
@@ -54,7 +55,7 @@ def test_one_rounding_for_each_store(kernel: Any, signature: tuple[Any, ...], st
 
 def test_no_fused_multiply_add_and_no_reference_counts() -> None:
     """Whole queries and ticks, with all that they call, neither fuse operations nor count references."""
-    fresh = compiled(run, (FLOATS, INTS, FLOATS, N, ROWS, ROWS, INTS))
+    fresh = compiled(run, (FLOATS, INTS, FLOATS, N, ROWS, ROWS, ORDER, INTS))
     (code,) = fresh.inspect_llvm().values()
     (assembly,) = fresh.inspect_asm().values()
     assert "NRT_incref" not in code
