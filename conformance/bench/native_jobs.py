@@ -5,6 +5,7 @@ from __future__ import annotations
 import shutil
 import tempfile
 import weakref
+from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 from weakref import WeakKeyDictionary
@@ -12,12 +13,13 @@ from weakref import WeakKeyDictionary
 import numpy as np
 
 from conformance.bench import ops
+from conformance.bench.kept import Kept
 from conformance.bench.native.compiler import compile_yardstick, find_compiler
 from conformance.bench.native.library import Yardstick
 from conformance.bench.timing import Answer, Job
 
 if TYPE_CHECKING:
-    from collections.abc import MutableMapping
+    from collections.abc import MutableMapping, Sequence
 
     from conformance.bench.native.library import NativeTree
     from conformance.bench.scenes import BenchScene
@@ -49,7 +51,8 @@ class Native:
 
     def maker(self, op: str) -> Maker:
         """Return it as an implementation of a sphere that strikes, or steps down."""
-        return {ops.STRIKE: self._strike_job, ops.STEP_DOWN: self._step_down_job}[op]
+        prepare = {ops.STRIKE: self._strike_job, ops.STEP_DOWN: self._step_down_job}[op]
+        return partial(prepare, Kept())
 
     def _tree(self, scene: BenchScene) -> NativeTree:
         tree = self._trees.get(scene)
@@ -57,23 +60,26 @@ class Native:
             tree = self._trees[scene] = self._yardstick.tree(scene)
         return tree
 
-    def _strike_job(self, work: KernelWork) -> Job:
+    def _strike_job(self, kept: Kept, work: KernelWork) -> Job:
         tree, spheres, movements = self._tree(work.scene), _singles(work.spheres), _singles(work.movements)
+        answers = [kept.array(name, (len(work),), np.int32) for name in ("struck", "polygons")]
+        return Job(lambda: tree.strike(spheres, movements, *answers), lambda _: _columns(answers), len(work))
 
-        def answer(done: Any) -> Answer:
-            return np.column_stack(done).astype(np.float64)
-
-        return Job(lambda: tree.strike(spheres, movements), answer, len(work))
-
-    def _step_down_job(self, work: KernelWork) -> Job:
+    def _step_down_job(self, kept: Kept, work: KernelWork) -> Job:
         tree = self._tree(work.scene)
         spheres, movements, ups = (_singles(a) for a in (work.spheres, work.movements, work.ups))
         limits = _singles(np.column_stack([work.allowances, work.interps]))
+        moved = kept.array("moved", (len(work), 4), np.float32)
+        polygons = kept.array("polygons", (len(work),), np.int32)
 
-        def answer(done: Any) -> Answer:
-            return np.column_stack(done).astype(np.float64)
+        def run() -> None:
+            tree.step_down(spheres, movements, ups, limits, moved, polygons)
 
-        return Job(lambda: tree.step_down(spheres, movements, ups, limits), answer, len(work))
+        return Job(run, lambda _: _columns([moved, polygons]), len(work))
+
+
+def _columns(arrays: Sequence[Any]) -> Answer:
+    return np.column_stack(arrays).astype(np.float64)
 
 
 def _singles(values: Any) -> Any:

@@ -65,30 +65,31 @@ class NativeTree:
             )
         )
 
-    def strike(self, spheres: Singles, movements: Singles) -> tuple[Integers, Integers]:
-        """Return whether each sphere strikes, and the polygon that overlapped last (-1: none)."""
-        struck, polygons = np.zeros((2, len(spheres)), dtype=np.int32)
+    def strike(self, spheres: Singles, movements: Singles, struck: Integers, polygons: Integers) -> None:
+        """Write whether each sphere strikes, and the polygon that overlapped last (-1: none)."""
         self._library.strike_many(
             self._tree,
             *(_pointer(array) for array in (spheres, movements)),
             ctypes.c_int64(len(spheres)),
             *(_pointer(array) for array in (struck, polygons)),
         )
-        return struck, polygons
 
     def step_down(
-        self, spheres: Singles, movements: Singles, ups: Singles, limits: Singles
-    ) -> tuple[Singles, Integers]:
-        """Return each sphere's centre and what is left of its step, and the polygon that took it (or -1)."""
-        moved = np.zeros((len(spheres), 4), dtype=np.float32)
-        polygons = np.zeros(len(spheres), dtype=np.int32)
+        self,
+        spheres: Singles,
+        movements: Singles,
+        ups: Singles,
+        limits: Singles,
+        moved: Singles,
+        polygons: Integers,
+    ) -> None:
+        """Write each sphere's centre and what is left of its step, and the polygon that took it (or -1)."""
         self._library.step_down_many(
             self._tree,
             *(_pointer(array) for array in (spheres, movements, ups, limits)),
             ctypes.c_int64(len(spheres)),
             *(_pointer(array) for array in (moved, polygons)),
         )
-        return moved, polygons
 
     def __del__(self) -> None:
         self._library.tree_delete(self._tree)
