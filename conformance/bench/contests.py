@@ -84,10 +84,10 @@ class Contest:
         plain, *others = self._turns(op, makers, self.settings.fast_rounds, size=batch)
         for variant, times in zip(variants, others, strict=True):
             ours, theirs = (plain, times) if variant.threads == 1 else (times, plain)
-            threads, note = variant.threads, variant.note
-            found = self._add(op, "engine", ours, theirs, batch=batch, threads=threads, note=note)
-            if threads > 1 and batch == LARGE:
-                self._add_threads(op, threads, found)
+            about = {"batch": batch, "threads": variant.threads}
+            found = self._add(op, variant.reference, ours, theirs, **about, note=variant.note)
+            if variant.threads > 1 and batch == LARGE:
+                self._add_threads(op, variant.threads, found)
 
     def _add_threads(self, op: str, threads: int, found: Comparison) -> None:
         sizes, costs = (1, threads), (found.theirs, found.ours)
@@ -106,7 +106,7 @@ class Contest:
         ]
         times = take_turns(makers, pairs, warm_up=next(pairs), judge=accept)
         for batch, air, ground in zip(FLIGHT_BATCHES, times[::2], times[1::2], strict=True):
-            self._add(ops.FREE_FLIGHT, "engine", air, ground, batch=batch, note="beside contact_walk")
+            self._add(ops.FREE_FLIGHT, "engine, contact_walk", air, ground, batch=batch)
 
     def beside_peers(self) -> None:
         """Measure the touching question beside the libraries that are installed; they may differ a little."""

@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, Any, Final
 
 from conformance.bench.figures import pareto
 from conformance.bench.machine import machine
+from conformance.bench.peers import MODULES
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Sequence
@@ -107,7 +108,7 @@ def _draw_ratios(figure: Any, ratios: Sequence[Ratio]) -> None:
     """Draw a bar for each ratio, on a logarithmic axis, with its quartiles."""
     axes = figure.subplots()
     found = [ratio.comparison.ratio for ratio in ratios]
-    labels = [f"{r.scene}: {r.op} / {r.reference}, {r.batch} x {r.threads}" for r in ratios]
+    labels = [_label(ratio) for ratio in ratios]
     spread = [[each.middle - each.low for each in found], [each.high - each.middle for each in found]]
     places = range(len(ratios))
     axes.barh(places, [each.middle for each in found], xerr=spread, color="steelblue", ecolor="black")
@@ -117,6 +118,14 @@ def _draw_ratios(figure: Any, ratios: Sequence[Ratio]) -> None:
     axes.set_xscale("log")
     axes.axvline(1.0, color="black", linewidth=0.8)
     axes.set_xlabel("our rate / theirs (scene: op / reference, batch x threads), median and quartiles")
+
+
+def _label(line: Ratio) -> str:
+    """Say what a bar is; what a peer's note says of differing answers has no room there."""
+    beside = (
+        line.reference if line.reference in MODULES or not line.note else f"{line.reference} ({line.note})"
+    )
+    return f"{line.scene}: {line.op} / {beside}, {line.batch} x {line.threads}"
 
 
 def _draw_curves(figure: Any, curves: Sequence[Curve]) -> None:

@@ -24,7 +24,7 @@ class Ratio:
         Where, and what was asked.
     reference : str
         Beside whom: ``oracle``, ``native``, ``fcl``, ``coal``, ``trimesh``, ``engine`` (the noise check,
-        and the engine on one thread beside itself on several).
+        and the engine on one thread beside itself on several), or, after ``engine,``, how it differs.
     batch, threads : int
         Queries in one call of the engine, and on how many threads.
     comparison : Comparison

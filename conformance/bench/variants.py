@@ -27,8 +27,10 @@ class Variant:
         Of a run (`conformance.bench.settings.SECTIONS`).
     ops : tuple of str
         What is asked of both.
+    reference : str
+        What the table calls the other side.
     note : str
-        What the table says of it.
+        What the table says of it besides.
     threads : int
         On how many this one runs.
     options : mapping
@@ -39,7 +41,8 @@ class Variant:
 
     section: str
     ops: tuple[str, ...]
-    note: str
+    reference: str = "engine"
+    note: str = ""
     threads: int = 1
     options: Mapping[str, Any] = field(default_factory=dict)
     batch: int = LARGE
@@ -50,20 +53,20 @@ class Variant:
 
 
 VARIANTS: Final = (
-    Variant("noise", (ops.STRIKE, ops.CONTACT_WALK), "noise check"),
+    Variant("noise", (ops.STRIKE, ops.CONTACT_WALK), note="noise check"),
     Variant(
         "plans",
         (ops.CONTACT_WALK, ops.FREE_FLIGHT, ops.TICK),
-        "shortcuts, beside none",
+        "engine, no shortcuts",
         options={"plan": Plan.none()},
     ),
     Variant(
         "threads",
         (ops.STRIKE, ops.STEP_DOWN, ops.FIND_COLLISIONS, ops.CONTACT_WALK, ops.TICK),
-        "beside one thread",
+        note="beside one thread",
         threads=THREADS,
     ),
-    Variant("threads", (ops.STRIKE,), "beside one thread", threads=THREADS, batch=CROWD),
+    Variant("threads", (ops.STRIKE,), note="beside one thread", threads=THREADS, batch=CROWD),
 )
 
 

@@ -50,6 +50,10 @@ def test_a_small_run_measures_everything_beside_the_oracle() -> None:
     for op in (ops.STRIKE, ops.STEP_DOWN, ops.FIND_COLLISIONS, ops.CONTACT_WALK, ops.FREE_FLIGHT, ops.TICK):
         assert {(op, 1), (op, 100), (op, 10_000)} <= beside
     assert all(line.comparison.ratio.middle > 0.0 for line in report.ratios)
+    assert {line.batch for line in report.ratios if line.reference == "engine, contact_walk"} == {
+        1000,
+        10_000,
+    }
     assert report.facts["polygons"]["room"] == [64]
     assert "peers: not asked for (--peers): fcl, coal, trimesh" in report.omissions
 
@@ -82,8 +86,8 @@ def test_shortcuts_are_measured_beside_none() -> None:
     report = Report(3)
     benchmark.measure(tiny("plans"), report, lambda _: None)
     assert report.failures == []
-    assert [(line.op, line.note) for line in report.ratios] == [
-        (op, "shortcuts, beside none") for op in (ops.CONTACT_WALK, ops.FREE_FLIGHT, ops.TICK)
+    assert [(line.op, line.reference) for line in report.ratios] == [
+        (op, "engine, no shortcuts") for op in (ops.CONTACT_WALK, ops.FREE_FLIGHT, ops.TICK)
     ]
 
 
