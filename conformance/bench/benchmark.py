@@ -53,13 +53,13 @@ def measure(settings: Settings, report: Report, say: Callable[[str], None]) -> N
     _name_omissions(settings, report)
     if any(section in settings.sections for section in _SCENE_SECTIONS):
         for scene in _scenes(settings, say):
-            contest = Contest(scene, settings, report, rng)
+            contest = Contest(scene, settings, report, rng, say)
             report.facts.setdefault("polygons", {}).setdefault(scene.name, []).append(scene.size)
             for name, perform in contests_of(settings.sections, native):
                 say(f"{scene.name}: {name}")
                 _attempt(report, f"{scene.name}: {name}", perform, contest)
     if "scaling" in settings.sections:
-        for name, curve in Scaling(settings, report, rng).curves():
+        for name, curve in Scaling(settings, report, rng, say).curves():
             say(name)
             _attempt(report, name, lambda measure_it: measure_it(), curve)
     if "messages" in settings.sections:

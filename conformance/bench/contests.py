@@ -37,13 +37,33 @@ FLIGHT_BATCHES: Final = (SMALL, LARGE)
 
 
 class Contest:
-    """One scene, its random queries, and where results go."""
+    """One scene, its random queries, and where results go.
 
-    def __init__(self, scene: BenchScene, settings: Settings, report: Report, rng: Generator) -> None:
+    Parameters
+    ----------
+    scene : BenchScene
+    settings : Settings
+    report : Report
+        Takes what is found.
+    rng : Generator
+        Draws the queries.
+    say : callable
+        Told of every round.
+    """
+
+    def __init__(
+        self,
+        scene: BenchScene,
+        settings: Settings,
+        report: Report,
+        rng: Generator,
+        say: Callable[[str], None],
+    ) -> None:
         self.scene: Final = scene
         self.settings: Final = settings
         self.report: Final = report
         self._rng: Final = rng
+        self._say: Final = say
         self._surfaces: Final = Surfaces(scene.geometry)
 
     def work(self, op: str, count: int) -> Any:
@@ -62,8 +82,10 @@ class Contest:
         return make[op](scene, surfaces, rng, count)
 
     def works(self, op: str, rounds: int, size: int = LARGE) -> Iterator[Any]:
-        """Draw the work of each round when it is asked for."""
-        return (self.work(op, size) for _ in range(rounds))
+        """Draw the work of a warm-up, and of each round, when it is asked for."""
+        for number in range(rounds + 1):
+            self._say(f"{self.scene.name}: {op}, round {number} of {rounds}")
+            yield self.work(op, size)
 
     def beside_oracle(self, op: str) -> None:
         """Measure the engine, in calls of every size, beside the oracle."""
@@ -97,7 +119,7 @@ class Contest:
     def air_beside_ground(self) -> None:
         """Measure moves through the air beside moves along the ground, both by the engine."""
         rounds = self.settings.fast_rounds
-        flights, walks = (self.works(op, rounds + 1) for op in (ops.FREE_FLIGHT, ops.CONTACT_WALK))
+        flights, walks = (self.works(op, rounds) for op in (ops.FREE_FLIGHT, ops.CONTACT_WALK))
         pairs = zip(flights, walks, strict=True)
         makers = [
             partial(_of_pair, side, engine_maker(op, batch))
@@ -129,7 +151,7 @@ class Contest:
     def precision(self) -> None:
         """Measure cost and error of every implementation of a move along the ground."""
         moves = self.work(ops.CONTACT_WALK, self.settings.exact_moves)
-        clocked = partial(self.works, ops.CONTACT_WALK, self.settings.rounds + 1)
+        clocked = partial(self.works, ops.CONTACT_WALK, self.settings.rounds)
         measure_precision(self.scene, moves, clocked, self.report)
 
     def _turns(
@@ -141,7 +163,7 @@ class Contest:
         size: int = LARGE,
         judge: Callable[[Any, Sequence[Answer]], None] = demand_equal,
     ) -> list[list[float]]:
-        works = self.works(op, rounds + 1, size)
+        works = self.works(op, rounds, size)
         return take_turns(makers, works, warm_up=next(works), judge=judge)
 
     def _add(

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from operator import itemgetter
 from typing import TYPE_CHECKING, Final
 
 from conformance.bench.machine import machine, versions
@@ -62,7 +63,8 @@ def numbers(report: Report, command: str) -> str:
     """Return everything that was found, as Markdown."""
     sections = [
         _made_with(report, command),
-        _section("Ratios", _ratios(report)),
+        _section("Ratios, scene by scene", _overview(report)),
+        _section("Ratios, with their spread", _ratios(report)),
         _section("Work and precision", _points(report)),
         _section("Growth", _curves(report)),
         _section("Omissions", [f"- {line}" for line in report.omissions]),
@@ -99,6 +101,21 @@ def _table(head: Sequence[str], rows: Iterable[Sequence[str]]) -> Iterator[str]:
     yield f"|{'|'.join(['---'] * len(head))}|"
     for row in rows:
         yield f"| {' | '.join(row)} |"
+
+
+def _overview(report: Report) -> Iterable[str]:
+    """Return a line for each comparison, with the ratio in each scene."""
+    scenes = list(report.facts.get("polygons", {}))
+    found: dict[tuple[str, ...], dict[str, str]] = {}
+    for line in report.ratios:
+        if line.scene in scenes:
+            compared = (line.reference, line.op, f"{line.batch}", f"{line.threads}")
+            found.setdefault(compared, {})[line.scene] = f"{line.comparison.ratio.middle:.2f}"
+    rows = [
+        (*compared, *(found[compared].get(scene, "") for scene in scenes))
+        for compared in sorted(found, key=itemgetter(0))
+    ]
+    return _table(("reference", "op", "batch", "threads", *scenes), rows) if rows else ()
 
 
 def _ratios(report: Report) -> Iterable[str]:

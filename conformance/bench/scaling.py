@@ -22,7 +22,7 @@ from conformance.scenes.solids import box
 from engine import Cell, Obstacle, Pose
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Sequence
+    from collections.abc import Callable, Iterator, Sequence
 
     from numpy.random import Generator
 
@@ -55,13 +55,16 @@ APART: Final = 500.0
 
 
 class Scaling:
-    """The curves of one run."""
+    """The curves of one run; parameters as those of `conformance.bench.contests.Contest`."""
 
-    def __init__(self, settings: Settings, report: Report, rng: Generator) -> None:
+    def __init__(
+        self, settings: Settings, report: Report, rng: Generator, say: Callable[[str], None]
+    ) -> None:
         self._rounds: Final = settings.fast_rounds
         self._grids: Final = settings.grids
         self._report: Final = report
         self._rng: Final = rng
+        self._say: Final = say
 
     def polygons(self) -> None:
         """Measure single queries and whole moves in scenes of more and more rooms."""
@@ -115,12 +118,17 @@ class Scaling:
         self, name: str, op: str, sizes: Sequence[int], draws: Sequence[Callable[[], Any]], batch: int = SMALL
     ) -> None:
         """Let the sizes take turns, each round at new queries, and fit a power law to their medians."""
-        rounds = ([draw() for draw in draws] for _ in range(self._rounds + 1))
+        rounds = self._works(f"{op} against {name}", draws)
         makers = [partial(_nth, index, engine_maker(op, batch)) for index in range(len(draws))]
         times = take_turns(makers, rounds, warm_up=next(rounds), judge=accept)
         costs = tuple(summarise(each) for each in times)
         exponent = growth_exponent(sizes, [cost.middle for cost in costs])
         self._report.curves.append(Curve(name, op, tuple(sizes), costs, exponent))
+
+    def _works(self, about: str, draws: Sequence[Callable[[], Any]]) -> Iterator[list[Any]]:
+        for number in range(self._rounds + 1):
+            self._say(f"{about}, round {number} of {self._rounds}")
+            yield [draw() for draw in draws]
 
 
 def _nth(index: int, maker: Callable[[Any], Job], works: Sequence[Any]) -> Job:

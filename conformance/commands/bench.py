@@ -26,8 +26,9 @@ EXAMPLES: Final = (
     "conformance bench --only messages",
 )
 _METHOD: Final = """\
-Implementations take turns at the same new random queries in one process; answers are compared before times
-are believed; the median of the rounds' ratios is reported, with quartiles. Ctrl-C keeps what there is.
+Implementations take turns in one process, each round at new random queries, no two of them the same (who
+works in Python is asked a sample of them); answers are compared before times are believed; the median of the
+rounds' ratios is reported, with quartiles. Ctrl-C keeps what there is.
 
 Exit codes: 0 all was measured, 1 answers differ where they must not, 2 usage, 4 nothing was measured,
 5 the results could not be written, 130 Ctrl-C broke it off.

@@ -71,7 +71,7 @@ def test_the_noise_check_is_the_engine_beside_itself() -> None:
 def test_threads_are_measured_beside_one() -> None:
     """In two sizes of call where they are fastest; each operation has a curve."""
     report = Report(3)
-    contest = Contest(make_scene("room"), tiny("threads"), report, np.random.default_rng(1))
+    contest = Contest(make_scene("room"), tiny("threads"), report, np.random.default_rng(1), lambda _: None)
     for op, batch, variants in variants_of(["threads"]):
         if op == ops.STRIKE:
             contest.beside_itself(op, batch, variants)
@@ -94,7 +94,7 @@ def test_shortcuts_are_measured_beside_none() -> None:
 def test_curves_have_a_cost_for_each_size() -> None:
     """Moves of more and more sub-steps cost more; each size has its own."""
     report = Report(3)
-    Scaling(tiny("scaling"), report, np.random.default_rng(1)).lengths()
+    Scaling(tiny("scaling"), report, np.random.default_rng(1), lambda _: None).lengths()
     (curve,) = report.curves
     assert curve.sizes == (1, 2, 4, 8, 16, 32)
     assert len(curve.costs) == 6

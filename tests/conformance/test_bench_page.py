@@ -46,6 +46,21 @@ def test_every_table_is_written() -> None:
     assert "### Failures" not in text
 
 
+def test_scenes_stand_side_by_side() -> None:
+    """One line for each comparison, sorted by the reference; what was not measured is left blank."""
+    report = filled()
+    report.facts["polygons"] = {"room": [64], "building": [576]}
+    for scene, reference in (("building", "native"), ("building", "fcl")):
+        report.ratios.append(Ratio(scene, "strike", reference, 10_000, 1, COMPARED))
+    lines = numbers(report, "conformance bench").splitlines()
+    begin = lines.index("| reference | op | batch | threads | room | building |")
+    assert lines[begin + 2 : begin + 5] == [
+        "| fcl | strike | 10000 | 1 |  | 2.00 |",
+        "| native | strike | 10000 | 1 | 2.00 | 2.00 |",
+        "",
+    ]
+
+
 @pytest.mark.parametrize("text", ["nothing", BEGIN, f"{END}\n{BEGIN}\n"])
 def test_a_page_without_marks_is_refused(tmp_path: Path, text: str) -> None:
     """It is left as it is."""
