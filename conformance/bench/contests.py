@@ -96,9 +96,11 @@ class Contest:
             self._add(op, "oracle", times, theirs, batch=batch)
 
     def beside_native(self, op: str, native: Native) -> None:
-        """Measure a hot kernel of the engine beside the yardstick."""
-        makers = [engine_maker(op, LARGE), native.maker(op)]
-        self._add(op, "native", *self._turns(op, makers, self.settings.fast_rounds))
+        """Measure a hot kernel of the engine beside the yardstick, given queries as drawn, and sorted."""
+        makers = [engine_maker(op, LARGE), native.maker(op), native.sorted_maker(op)]
+        ours, as_drawn, in_order = self._turns(op, makers, self.settings.fast_rounds)
+        self._add(op, "native", ours, as_drawn)
+        self._add(op, "native, sorted", ours, in_order)
 
     def beside_itself(self, op: str, batch: int, variants: Sequence[Variant]) -> None:
         """Measure the engine, as it is without a word, beside itself otherwise."""

@@ -5,6 +5,7 @@ from __future__ import annotations
 import shutil
 import tempfile
 import weakref
+from dataclasses import replace
 from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -17,6 +18,8 @@ from conformance.bench.kept import Kept
 from conformance.bench.native.compiler import compile_yardstick, find_compiler
 from conformance.bench.native.library import Yardstick
 from conformance.bench.timing import Answer, Job
+from engine.coherence import order_of
+from engine.kernels.order import SPHERES
 
 if TYPE_CHECKING:
     from collections.abc import MutableMapping, Sequence
@@ -54,6 +57,13 @@ class Native:
         prepare = {ops.STRIKE: self._strike_job, ops.STEP_DOWN: self._step_down_job}[op]
         return partial(prepare, Kept())
 
+    def sorted_maker(self, op: str) -> Maker:
+        """Return it as `maker` does, but given its queries in the engine's order, for nothing.
+
+        What it then gains on the engine, or loses, is not a matter of the order.
+        """
+        return partial(_sorted_job, self.maker(op))
+
     def _tree(self, scene: BenchScene) -> NativeTree:
         tree = self._trees.get(scene)
         if tree is None:
@@ -76,6 +86,20 @@ class Native:
             tree.step_down(spheres, movements, ups, limits, moved, polygons)
 
         return Job(run, lambda _: _columns([moved, polygons]), len(work))
+
+
+def _sorted_job(maker: Maker, work: KernelWork) -> Job:
+    """Make a job of work that was sorted before; its answers are in the order in which queries were drawn."""
+    found = order_of(SPHERES, work.spheres)
+    order = found.astype(np.int64) if len(found) else np.arange(len(work))
+    job = maker(work.sorted(order))
+
+    def answer(done: Any) -> Answer:
+        answers = job.answer(done)
+        answers[order] = answers.copy()
+        return answers
+
+    return replace(job, answer=answer)
 
 
 def _columns(arrays: Sequence[Any]) -> Answer:

@@ -23,8 +23,9 @@ class Ratio:
     scene, op : str
         Where, and what was asked.
     reference : str
-        Beside whom: ``oracle``, ``native``, ``fcl``, ``coal``, ``trimesh``, ``engine`` (the noise check,
-        and the engine on one thread beside itself on several), or, after ``engine,``, how it differs.
+        Beside whom: ``oracle``, ``native`` (and ``native, sorted``: given its queries in the engine's order),
+        ``fcl``, ``coal``, ``trimesh``, ``engine`` (the noise check, and one thread beside several), or, after
+        ``engine,``, how it differs.
     batch, threads : int
         Queries in one call of the engine, and on how many threads.
     comparison : Comparison

@@ -1,4 +1,4 @@
-"""The engine otherwise: without its shortcuts, on several threads, or not otherwise, to see the noise."""
+"""The engine otherwise: no shortcuts, queries as drawn, several threads; or not otherwise, for the noise."""
 
 from __future__ import annotations
 
@@ -59,6 +59,12 @@ VARIANTS: Final = (
         (ops.CONTACT_WALK, ops.FREE_FLIGHT, ops.TICK),
         "engine, no shortcuts",
         options={"plan": Plan.none()},
+    ),
+    Variant(
+        "plans",
+        (ops.STRIKE, ops.STEP_DOWN, ops.FIND_COLLISIONS, ops.CONTACT_WALK, ops.TICK),
+        "engine, as drawn",
+        options={"coherent": False},
     ),
     Variant(
         "threads",

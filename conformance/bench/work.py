@@ -6,7 +6,7 @@ from dataclasses import dataclass, fields, replace
 from typing import TYPE_CHECKING, Protocol, Self
 
 if TYPE_CHECKING:
-    from conformance.bench.scenes import BenchScene, Floats
+    from conformance.bench.scenes import BenchScene, Floats, Indices
     from engine.query import Rows
 
 
@@ -51,7 +51,14 @@ class KernelWork:
 
     def part(self, first: int, last: int) -> KernelWork:
         """Return some of the queries: views of the same memory."""
-        arrays = {f.name: getattr(self, f.name)[first:last] for f in fields(self) if f.name != "scene"}
+        return self._of(slice(first, last))
+
+    def sorted(self, order: Indices) -> KernelWork:
+        """Return all queries in another order: copies, as contiguous as these."""
+        return self._of(order)
+
+    def _of(self, which: slice | Indices) -> KernelWork:
+        arrays = {f.name: getattr(self, f.name)[which] for f in fields(self) if f.name != "scene"}
         return replace(self, **arrays)
 
 

@@ -25,6 +25,8 @@ from conformance.bench.scenes import make_scene
 from conformance.bench.settings import quick
 from conformance.bench.timing import Answer, Maker, demand_equal, equal_rows
 from conformance.bench.work import RowWork
+from engine.coherence import order_of
+from engine.kernels.order import SPHERES
 
 if TYPE_CHECKING:
     from pathlib import Path
@@ -78,6 +80,16 @@ def test_yardstick_answers_as_the_oracle(op: str) -> None:
     found = answer(yardstick().maker(op), work)
     demand_equal(work, [found, answer(oracle_maker(op), work)])
     assert 0.1 < (found[:, -1] >= 0.0).mean() < 1.0
+
+
+@pytest.mark.parametrize("op", [ops.STRIKE, ops.STEP_DOWN])
+def test_sorted_queries_have_the_same_answers(op: str) -> None:
+    """They are told in the order in which queries were drawn, although they were not asked in it."""
+    work = contest().work(op, 2000)
+    order = order_of(SPHERES, work.spheres)
+    assert sorted(order.tolist()) == list(range(2000))
+    assert (np.diff(order) != 1).any()
+    demand_equal(work, [answer(yardstick().maker(op), work), answer(yardstick().sorted_maker(op), work)])
 
 
 def test_compiler_is_described() -> None:
