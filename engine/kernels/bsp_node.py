@@ -116,10 +116,10 @@ def descend(
 
     retail: BN-4
     """
-    side = side_of(splitting_distance(wf, node, x, y, z), reach)
-    if side == NEGATIVE_SIDE:
+    dist = splitting_distance(wf, node, x, y, z)
+    if dist >= reach:
+        return positive(node), top
+    if dist <= -reach:
         return negative(wi, node), top
-    if side == BOTH_SIDES:
-        s[unsigned(top)] = negative(wi, node)
-        return positive(node), top + 1
-    return positive(node), top
+    s[unsigned(top)] = negative(wi, node)
+    return positive(node), top + 1

@@ -13,6 +13,7 @@ import numpy as np
 
 from engine.constants import DEGREE, EPS, EPS5, RADIAN
 from engine.kernels.compile import entry, inlined, inlined_entry, kernel
+from engine.kernels.indexing import unsigned
 from engine.kernels.rounding import f32
 from engine.kernels.vector import load, normalize_check_small, store
 from engine.layout import MATRIX, ORIGIN, QUATERNION
@@ -27,7 +28,7 @@ def frame_cache(a: Array, p: int) -> None:
 
     retail: Frame::cache 0x00534DF0, 01 4.2
     """
-    q = p + QUATERNION
+    q = unsigned(p + QUATERNION)
     w, x, y, z = a[q], a[q + 1], a[q + 2], a[q + 3]
     x2 = x + x
     y2 = y + y
@@ -35,7 +36,7 @@ def frame_cache(a: Array, p: int) -> None:
     wx, wy, wz = w * x2, w * y2, w * z2
     xx, xy, xz = x * x2, x * y2, x * z2
     yy, yz, zz = y * y2, y * z2, z * z2
-    m = p + MATRIX
+    m = unsigned(p + MATRIX)
     store(a, m, f32((1.0 - yy) - zz), f32(xy + wz), f32(xz - wy))
     store(a, m + 3, f32(xy - wz), f32((1.0 - xx) - zz), f32(yz + wx))
     store(a, m + 6, f32(xz + wy), f32(yz - wx), f32((1.0 - xx) - yy))
@@ -47,7 +48,7 @@ def frame_is_valid(a: Array, p: int) -> bool:
 
     retail: Frame::IsValid 0x00534ED0, 01 4.3
     """
-    q, o = p + QUATERNION, p + ORIGIN
+    q, o = unsigned(p + QUATERNION), unsigned(p + ORIGIN)
     if math.isnan(a[o]) or math.isnan(a[o + 1]) or math.isnan(a[o + 2]):
         return False
     w, x, y, z = a[q], a[q + 1], a[q + 2], a[q + 3]
@@ -61,7 +62,7 @@ def frame_set_rotate(a: Array, p: int, w: float, x: float, y: float, z: float) -
 
     retail: Frame::set_rotate 0x00535080, 01 4.4
     """
-    q = p + QUATERNION
+    q = unsigned(p + QUATERNION)
     ow, ox, oy, oz = a[q], a[q + 1], a[q + 2], a[q + 3]
     inv = 1.0 / math.sqrt(((w * w + x * x) + y * y) + z * z)
     a[q] = f32(w * inv)
@@ -79,7 +80,7 @@ def frame_localtoglobal(a: Array, p: int, x: float, y: float, z: float) -> Vecto
 
     retail: Frame::localtoglobal 0x00452620, 01 4.5
     """
-    m, o = p + MATRIX, p + ORIGIN
+    m, o = unsigned(p + MATRIX), unsigned(p + ORIGIN)
     return (
         f32(((a[m + 6] * z + a[m] * x) + a[m + 3] * y) + a[o]),
         f32(((a[m + 7] * z + a[m + 1] * x) + a[m + 4] * y) + a[o + 1]),
@@ -93,7 +94,7 @@ def frame_localtoglobalvec(a: Array, p: int, x: float, y: float, z: float) -> Ve
 
     retail: Frame::localtoglobalvec 0x004524F0, 01 4.5
     """
-    m = p + MATRIX
+    m = unsigned(p + MATRIX)
     return (
         f32((a[m + 6] * z + a[m] * x) + a[m + 3] * y),
         f32((a[m + 7] * z + a[m + 1] * x) + a[m + 4] * y),
@@ -107,7 +108,7 @@ def frame_globaltolocal(a: Array, p: int, x: float, y: float, z: float) -> Vecto
 
     retail: Frame::globaltolocal 0x00452680, 01 4.6
     """
-    m, o = p + MATRIX, p + ORIGIN
+    m, o = unsigned(p + MATRIX), unsigned(p + ORIGIN)
     dx = f32(x - a[o])
     dy = f32(y - a[o + 1])
     dz = z - a[o + 2]
@@ -125,7 +126,7 @@ def frame_globaltolocalvec(a: Array, p: int, x: float, y: float, z: float) -> Ve
 
     retail: Frame::globaltolocalvec 0x00452550, 01 4.5
     """
-    m = p + MATRIX
+    m = unsigned(p + MATRIX)
     return (
         f32((a[m + 2] * z + a[m] * x) + a[m + 1] * y),
         f32((a[m + 5] * z + a[m + 3] * x) + a[m + 4] * y),
@@ -139,7 +140,7 @@ def rotate_x_last(a: Array, p: int, x: float, y: float, z: float) -> Vector:
 
     retail: PL-2, SD-6
     """
-    m = p + MATRIX
+    m = unsigned(p + MATRIX)
     return (
         f32((a[m + 6] * z + a[m + 3] * y) + a[m] * x),
         f32((a[m + 7] * z + a[m + 4] * y) + a[m + 1] * x),
@@ -242,7 +243,7 @@ def frame_set_heading(a: Array, p: int, degrees: float) -> None:
 
     retail: Frame::set_heading 0x00535E40, 01 4.8
     """
-    m = p + MATRIX
+    m = unsigned(p + MATRIX)
     r = degrees * DEGREE
     frame_set_vector_heading(
         a, p, f32(math.sin(r)), f32(math.cos(r)), f32((a[m + 8] + a[m + 2]) * 0.0 + a[m + 5])

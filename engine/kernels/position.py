@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING
 from engine.constants import BLOCK_STEP
 from engine.kernels.compile import entry, inlined, inlined_entry
 from engine.kernels.frame import frame_globaltolocal
+from engine.kernels.indexing import unsigned
 from engine.kernels.rounding import f32
 from engine.layout import MATRIX, ORIGIN
 
@@ -45,7 +46,7 @@ def _out_of_frame(a: Array, p: int, x: float, y: float, z: float) -> Vector:
 
     retail: Position::localtoglobal 0x00456180, 01 5.3 step 1
     """
-    m, o = p + MATRIX, p + ORIGIN
+    m, o = unsigned(p + MATRIX), unsigned(p + ORIGIN)
     return (
         f32(((a[m + 3] * y + a[m] * x) + a[m + 6] * z) + a[o]),
         f32(((a[m + 4] * y + a[m + 1] * x) + a[m + 7] * z) + a[o + 1]),
@@ -70,7 +71,7 @@ def position_localtoglobalvec(a: Array, p: int, x: float, y: float, z: float) ->
 
     retail: Position::localtoglobalvec 0x00456220, 01 5.4
     """
-    m = p + MATRIX
+    m = unsigned(p + MATRIX)
     return (
         f32((a[m + 3] * y + a[m] * x) + a[m + 6] * z),
         f32((a[m + 4] * y + a[m + 1] * x) + a[m + 7] * z),
@@ -84,7 +85,7 @@ def position_globaltolocalvec(a: Array, p: int, x: float, y: float, z: float) ->
 
     retail: Position::globaltolocalvec 0x0050C420, 01 5.5
     """
-    m = p + MATRIX
+    m = unsigned(p + MATRIX)
     return (
         f32((a[m + 1] * y + a[m] * x) + a[m + 2] * z),
         f32((a[m + 4] * y + a[m + 3] * x) + a[m + 5] * z),

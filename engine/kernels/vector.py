@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING
 
 from engine.constants import EPS
 from engine.kernels.compile import entry, inlined
+from engine.kernels.indexing import unsigned
 from engine.kernels.rounding import f32
 from engine.layout import MATRIX, ORIGIN, QUATERNION
 
@@ -39,15 +40,17 @@ def normalize_check_small(x: float, y: float, z: float) -> tuple[bool, float, fl
 @inlined
 def load(a: Array, at: int) -> Vector:
     """Read three consecutive numbers."""
-    return a[at], a[at + 1], a[at + 2]
+    i = unsigned(at)
+    return a[i], a[i + 1], a[i + 2]
 
 
 @inlined
 def store(a: Array, at: int, x: float, y: float, z: float) -> None:
     """Write three consecutive numbers, already rounded."""
-    a[at] = x
-    a[at + 1] = y
-    a[at + 2] = z
+    i = unsigned(at)
+    a[i] = x
+    a[i + 1] = y
+    a[i + 2] = z
 
 
 @inlined
@@ -60,9 +63,9 @@ def copy_vector(a: Array, at: int, b: Array, source: int) -> None:
 @inlined
 def copy_four(a: Array, at: int, b: Array, source: int) -> None:
     """Copy a quaternion, a plane, or a sphere: a struct assignment."""
-    w = b[source]
+    w = b[unsigned(source)]
     x, y, z = load(b, source + 1)
-    a[at] = w
+    a[unsigned(at)] = w
     store(a, at + 1, x, y, z)
 
 
@@ -73,15 +76,15 @@ def copy_position(a: Array, at: int, b: Array, source: int) -> None:
     Number by number, because its parts were written so a moment ago: a block that is read before all of
     its parts have reached the cache has to wait for them.
     """
-    cell = b[source]
-    w = b[source + QUATERNION]
+    cell = b[unsigned(source)]
+    w = b[unsigned(source + QUATERNION)]
     qx, qy, qz = load(b, source + QUATERNION + 1)
     xx, xy, xz = load(b, source + MATRIX)
     yx, yy, yz = load(b, source + MATRIX + 3)
     zx, zy, zz = load(b, source + MATRIX + 6)
     ox, oy, oz = load(b, source + ORIGIN)
-    a[at] = cell
-    a[at + QUATERNION] = w
+    a[unsigned(at)] = cell
+    a[unsigned(at + QUATERNION)] = w
     store(a, at + QUATERNION + 1, qx, qy, qz)
     store(a, at + MATRIX, xx, xy, xz)
     store(a, at + MATRIX + 3, yx, yy, yz)
