@@ -64,8 +64,9 @@ def measure(settings: Settings, report: Report, say: Callable[[str], None]) -> N
             _attempt(report, name, lambda measure_it: measure_it(), curve)
     if "messages" in settings.sections:
         say("messages: reading cases")
-        cases, rounds = load_paths().cases[:: settings.case_step], settings.rounds // 2 + 1
-        _attempt(report, "messages", lambda chosen: measure_messages(chosen, rounds, report, say), cases)
+        cases, step = load_paths().cases, settings.case_step
+        turns = [cases[first::step] for first in range(settings.case_rounds)]
+        _attempt(report, "messages", lambda chosen: measure_messages(chosen, report, say), turns)
 
 
 def _attempt(report: Report, name: str, perform: Callable[[T], None], subject: T) -> None:

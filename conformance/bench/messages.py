@@ -1,22 +1,24 @@
 """What it costs to ask an engine by messages: cases judged over the protocol, and with the answers at hand.
 
 The engine has its answers ready, so that all that differs is the suite's own work for messages: what they add
-to a run for an engine that takes no time itself. Clocked is the suite's processor time, its threads included.
+to a run for an engine that takes no time itself. Each case is judged as in a run of the suite: once, in a
+scene that nobody has seen before.
 """
 
 from __future__ import annotations
 
+import copy
 import sys
 import tempfile
 import time
-from contextlib import contextmanager
-from dataclasses import dataclass
+from contextlib import ExitStack, contextmanager
+from dataclasses import dataclass, field
 from pathlib import Path
 from typing import TYPE_CHECKING, Final
 
 from conformance.bench.report import Ratio
 from conformance.bench.timing import DisagreementError, comparison, no_collection
-from conformance.candidates.base import close
+from conformance.candidates.base import ask_ahead, close
 from conformance.candidates.command_candidate import WINDOW, CommandCandidate
 from conformance.candidates.oracle_candidate import OracleCandidate
 from conformance.outputs import OUTPUTS
@@ -39,6 +41,11 @@ if TYPE_CHECKING:
 
 _REPLAYING: Final = Path(__file__).with_name("replaying.py")
 _NAME: Final = "answers at hand"
+CLOCKS: Final[Mapping[str, Callable[[], float]]] = {
+    "processor time": time.process_time,
+    "wall time": time.perf_counter,
+}
+"""What is read, in seconds: the suite's own work, its threads included, and what somebody waits for."""
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -52,16 +59,15 @@ class _AtHand:
         return self.outcomes[query]
 
 
-def measure_messages(cases: Sequence[Case], rounds: int, report: Report, say: Callable[[str], None]) -> None:
-    """Judge cases over the protocol and in process in turn, in both dialects of floats.
+def measure_messages(rounds: Sequence[Sequence[Case]], report: Report, say: Callable[[str], None]) -> None:
+    """Judge cases in process, and over the protocol in both dialects of floats, in turn.
 
     Parameters
     ----------
-    cases : sequence of Case
-    rounds : int
-        How often; a new engine is started for each, as it is sent every scene once.
+    rounds : sequence of sequence of Case
+        The cases of each round.
     report : Report
-        Is given a line for each dialect.
+        Is given a line for each dialect and clock.
     say : callable
         Told how far it is.
 
@@ -70,35 +76,64 @@ def measure_messages(cases: Sequence[Case], rounds: int, report: Report, say: Ca
     DisagreementError
         If a case fails: an answer is another after its way as a message.
     """
-    oracle = OracleCandidate()
-    at_hand = _AtHand({query: oracle.answer(query) for case in cases for query in case.queries})
+    times = []
+    for number, cases in enumerate(rounds, 1):
+        say(f"messages: round {number} of {len(rounds)}, {len(cases)} cases")
+        times.append(_judged(cases))
     for dialect in DIALECTS:
-        ours, theirs = [], []
-        for number in range(1, rounds + 1):
-            say(f"messages, floats {dialect}: round {number} of {rounds}")
-            with _engine(cases, at_hand, dialect) as engine, no_collection():
-                times = _in_turn(cases, engine, at_hand, oracle)
-            ours.append(times[engine])
-            theirs.append(times[at_hand])
-        note = f"messages, floats {dialect}; processor time"
-        report.ratios.append(Ratio("cases", "judge", _NAME, WINDOW, 1, comparison(ours, theirs), note))
+        for clock in CLOCKS:
+            ours, theirs = ([one[who, clock] for one in times] for who in (dialect, _NAME))
+            note = f"messages, floats {dialect}; {clock}"
+            report.ratios.append(Ratio("cases", "judge", _NAME, WINDOW, 1, comparison(ours, theirs), note))
 
 
-def _in_turn(
-    cases: Sequence[Case], engine: Candidate, at_hand: Candidate, oracle: Candidate
-) -> dict[Candidate, float]:
-    """Return the nanoseconds of processor time that judging takes for each query, with either."""
-    spent = {engine: 0.0, at_hand: 0.0}
-    for number, case in enumerate(cases):
-        judge(case, at_hand, oracle)  # what the oracle keeps of a scene, it has then
-        for who in (engine, at_hand) if number % 2 else (at_hand, engine):
-            begin = time.process_time()
-            verdict = judge(case, who, oracle)
-            spent[who] += time.process_time() - begin
-            for failure in verdict.failures:
-                raise DisagreementError(f"{failure.query.label}: {failure.summary}")
+def _judged(cases: Sequence[Case]) -> dict[tuple[str, str], float]:
+    """Return the nanoseconds of each query, by who was asked and by clock."""
+    oracle = OracleCandidate()
+    outcomes = [[oracle.answer(query) for query in case.queries] for case in cases]
+    with ExitStack() as stack:
+        mine, at_hand = _own_cases(cases, outcomes)
+        sides = [_Side(_NAME, at_hand, mine)]
+        for dialect in DIALECTS:
+            mine, at_hand = _own_cases(cases, outcomes)
+            engine = stack.enter_context(_engine(mine, at_hand, dialect))
+            ask_ahead(engine, ())  # it is started before the clock is
+            sides.append(_Side(dialect, engine, mine))
+        with no_collection():
+            for turn in range(len(cases)):
+                for place in range(len(sides)):
+                    sides[(turn + place) % len(sides)].judge(turn, oracle)
     queries = sum(len(case.queries) for case in cases)
-    return {who: seconds * 1e9 / queries for who, seconds in spent.items()}
+    return {
+        (side.name, clock): 1e9 * spent / queries for side in sides for clock, spent in side.spent.items()
+    }
+
+
+@dataclass(slots=True)
+class _Side:
+    """Who answers, the cases that are asked, and the seconds that it took to judge them."""
+
+    name: str
+    candidate: Candidate
+    cases: Sequence[Case]
+    spent: dict[str, float] = field(default_factory=lambda: dict.fromkeys(CLOCKS, 0.0))
+
+    def judge(self, number: int, oracle: Candidate) -> None:
+        begin = [now() for now in CLOCKS.values()]
+        verdict = judge(self.cases[number], self.candidate, oracle)
+        for (clock, now), then in zip(CLOCKS.items(), begin, strict=True):
+            self.spent[clock] += now() - then
+        for failure in verdict.failures:
+            raise DisagreementError(f"{failure.query.label}: {failure.summary}")
+
+
+def _own_cases(
+    cases: Sequence[Case], outcomes: Sequence[Sequence[Outcome]]
+) -> tuple[Sequence[Case], _AtHand]:
+    """Copy cases; what is kept of a scene is kept for its objects, so that a copy's is new to everybody."""
+    mine = copy.deepcopy(cases)
+    answered = (zip(case.queries, given, strict=True) for case, given in zip(mine, outcomes, strict=True))
+    return mine, _AtHand(dict(pair for pairs in answered for pair in pairs))
 
 
 @contextmanager

@@ -8,22 +8,20 @@ from __future__ import annotations
 
 import contextlib
 import os
-import queue
 import shlex
 import signal
 import subprocess
 import sys
 import threading
 import weakref
-from typing import IO, TYPE_CHECKING, Final
+from typing import IO, TYPE_CHECKING, Final, cast
 
-from conformance.protocol.messages import MOST_BYTES
+from conformance.protocol.incoming import Incoming
+from conformance.protocol.outgoing import Outgoing
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Sequence
 
-_MOST_WAITING: Final = 16
-"""Lines of the engine that wait to be read; an engine that writes more has to wait itself."""
 _LOG_BYTES: Final = 1 << 14
 """How much of the end of an engine's stderr is kept."""
 _LOG_CHUNK: Final = 1 << 12
@@ -38,10 +36,6 @@ class CommandError(ValueError):
 
 class ProcessStartError(Exception):
     """The engine's program cannot be run."""
-
-
-class ReadTimeoutError(Exception):
-    """The engine has not written a line in time."""
 
 
 class EngineProcess:
@@ -59,13 +53,11 @@ class EngineProcess:
 
     def __init__(self, command: str) -> None:
         self._process = _spawn(command)
-        self._lines: queue.Queue[bytes] = queue.Queue(_MOST_WAITING)
-        self._outgoing: queue.SimpleQueue[bytes | None] = queue.SimpleQueue()
         self._unsent: list[bytes] = []
         self._log = bytearray()
-        self._reader = _thread(_read_lines, self._process.stdout, self._lines)
         self._logger = _thread(_read_log, self._process.stderr, self._log)
-        self._writer = _thread(_write_lines, self._process.stdin, self._outgoing)
+        self._incoming = Incoming(cast("IO[bytes]", self._process.stdout))
+        self._outgoing = Outgoing(cast("IO[bytes]", self._process.stdin))
         self._finalizer = weakref.finalize(self, _kill_tree, self._process)
 
     def send(self, line: bytes) -> None:
@@ -75,7 +67,7 @@ class EngineProcess:
     def flush(self) -> None:
         """Write what was sent: many lines at once, as each write wakes a thread and the engine."""
         if self._unsent:
-            self._outgoing.put(b"".join(self._unsent))
+            self._outgoing.send(b"".join(self._unsent))
             self._unsent.clear()
 
     def receive(self, seconds: float) -> bytes:
@@ -87,18 +79,12 @@ class EngineProcess:
             If it writes none in time.
         """
         self.flush()
-        try:
-            line = self._lines.get(timeout=seconds)
-        except queue.Empty:
-            raise ReadTimeoutError from None
-        if not line:
-            self._lines.put(line)
-        return line
+        return self._incoming.next_line(seconds)
 
     def close_input(self) -> None:
         """Let the engine see the end of its stdin, after what was sent."""
         self.flush()
-        self._outgoing.put(None)
+        self._outgoing.end()
 
     def wait(self, seconds: float) -> int | None:
         """Return the exit status, or None if the engine runs on."""
@@ -110,12 +96,9 @@ class EngineProcess:
     def kill(self) -> None:
         """End the engine and whatever it has started, and the threads that served it."""
         self._finalizer()
-        self._outgoing.put(None)
-        while self._reader.is_alive():
-            with contextlib.suppress(queue.Empty):
-                self._lines.get_nowait()
-            self._reader.join(0.01)
-        self._writer.join(_EXIT_SECONDS)
+        self._outgoing.end()
+        self._incoming.close()
+        self._outgoing.join(_EXIT_SECONDS)
         self._logger.join(_EXIT_SECONDS)
 
     def log(self) -> str:
@@ -180,27 +163,11 @@ def _thread(serve: Callable[..., None], *arguments: object) -> threading.Thread:
     return thread
 
 
-def _read_lines(stdout: IO[bytes], lines: queue.Queue[bytes]) -> None:
-    with stdout:
-        while line := stdout.readline(MOST_BYTES + 1):
-            lines.put(line)
-            if len(line) > MOST_BYTES:
-                break  # nothing after it can be a reply
-    lines.put(b"")
-
-
 def _read_log(stderr: IO[bytes], log: bytearray) -> None:
     with stderr:
         while chunk := os.read(stderr.fileno(), _LOG_CHUNK):
             log += chunk
             del log[:-_LOG_BYTES]
-
-
-def _write_lines(stdin: IO[bytes], outgoing: queue.SimpleQueue[bytes | None]) -> None:
-    with contextlib.suppress(OSError), stdin:  # a broken pipe: the reader sees how the engine ended
-        while (lines := outgoing.get()) is not None:
-            stdin.write(lines)
-            stdin.flush()
 
 
 def _kill_tree(process: subprocess.Popen[bytes]) -> None:

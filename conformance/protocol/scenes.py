@@ -4,10 +4,10 @@ from __future__ import annotations
 
 from collections import OrderedDict
 from dataclasses import dataclass
+from json.encoder import encode_basestring
 from typing import TYPE_CHECKING, Any, Final
 from weakref import WeakKeyDictionary
 
-from conformance.protocol.messages import json_text
 from conformance.protocol.writing import inputs_text
 
 if TYPE_CHECKING:
@@ -87,13 +87,13 @@ def scene_line(scene: HeldScene, seq: int, dialect: Dialect) -> bytes:
     RecursionError
         If its trees are nested too deeply for JSON.
     """
-    head = json_text({"cmd": "scene", "seq": seq, "id": scene.id})[:-1]
     geometries = ",".join(_named(name, geometry, dialect) for name, geometry in scene.geometries.items())
     world = ""
     if scene.world is not None:
         named = {"name": world_name(scene.world), **scene.world}
         world = f',"world":{inputs_text(named, dialect)}'
-    return f'{head},"geometries":[{geometries}]{world}}}\n'.encode()
+    head = f'"cmd":"scene","seq":{seq},"id":"{scene.id}"'
+    return f'{{{head},"geometries":[{geometries}]{world}}}\n'.encode()
 
 
 def _named(name: str, geometry: Geometry, dialect: Dialect) -> str:
@@ -103,7 +103,7 @@ def _named(name: str, geometry: Geometry, dialect: Dialect) -> str:
         record = geometry.to_record()
         del record["name"]
         known[dialect] = inputs_text(record, dialect)[1:]
-    return f"{json_text({'name': name})[:-1]},{known[dialect]}"
+    return f'{{"name":{encode_basestring(name)},{known[dialect]}'
 
 
 def run_line(query: Query, scene: HeldScene | None, seq: int, dialect: Dialect) -> bytes:
@@ -111,12 +111,10 @@ def run_line(query: Query, scene: HeldScene | None, seq: int, dialect: Dialect) 
     inputs = dict(query.inputs)
     if "world" in inputs:
         inputs["world"] = world_name(inputs["world"])
-    message = {"cmd": "run", "seq": seq, "op": query.op}
-    if scene is not None:
-        message["scene"] = scene.id
-    if query.label:
-        message["label"] = query.label
-    return f'{json_text(message)[:-1]},"inputs":{inputs_text(inputs, dialect)}}}\n'.encode()
+    where = "" if scene is None else f',"scene":"{scene.id}"'
+    label = f',"label":{encode_basestring(query.label)}' if query.label else ""
+    head = f'"cmd":"run","seq":{seq},"op":"{query.op}"{where}{label}'
+    return f'{{{head},"inputs":{inputs_text(inputs, dialect)}}}\n'.encode()
 
 
 def world_name(world: Mapping[str, Any]) -> str:

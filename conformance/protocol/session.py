@@ -11,8 +11,9 @@ from conformance.fields import UnknownOperationError
 from conformance.outputs import OUTPUTS
 from conformance.protocol.dialects import DIALECTS
 from conformance.protocol.features import FEATURES
+from conformance.protocol.incoming import ReadTimeoutError
 from conformance.protocol.messages import VERSION, Capabilities, line_of
-from conformance.protocol.process import EngineProcess, ReadTimeoutError, describe_exit
+from conformance.protocol.process import EngineProcess, describe_exit
 from conformance.protocol.replies import BadReplyError, read_reply
 
 if TYPE_CHECKING:

@@ -9,9 +9,10 @@ from typing import TYPE_CHECKING, Final, Self
 
 from conformance.compare import differences
 from conformance.protocol.dialects import write_outputs
+from conformance.protocol.incoming import ReadTimeoutError
 from conformance.protocol.messages import line_of
 from conformance.protocol.probes import VECTORS, find_probes
-from conformance.protocol.process import CommandError, EngineProcess, ProcessStartError, ReadTimeoutError
+from conformance.protocol.process import CommandError, EngineProcess, ProcessStartError
 from conformance.protocol.replies import BadReplyError, outcome_of
 from conformance.protocol.scenes import HeldScene, SceneSlots, run_line, scene_line
 from conformance.protocol.session import EngineTroubleError, Session

@@ -51,9 +51,8 @@ class _Texts(dict[float, str]):
 
     def __missing__(self, value: float) -> str:
         text = text_of(spell_single(value, self._dialect))
-        # Zeros are equal as keys, and differ; a NaN is no key.
-        if value == 0.0 or not math.isfinite(value):
-            return text
+        if not math.isfinite(value):
+            return text  # a NaN is no key: it would be kept again and again
         if len(self) >= _KEPT:
             self.clear()
         self[value] = text
@@ -61,7 +60,12 @@ class _Texts(dict[float, str]):
 
 
 SINGLES: Final[Mapping[Dialect, Mapping[float, str]]] = {"decimal": _Texts("decimal"), "hex": _Texts("hex")}
-"""The JSON text of every float32, in each dialect: ``SINGLES["decimal"][1.0] == "1.0"``."""
+"""The JSON text of every float32 but zeros, in each dialect: ``SINGLES["decimal"][1.0] == "1.0"``."""
+ZEROS: Final[Mapping[Dialect, Mapping[str, str]]] = {
+    "decimal": {"0.0": "0.0", "-0.0": "-0.0"},
+    "hex": {"0.0": '"0x00000000"', "-0.0": '"0x80000000"'},
+}
+"""The JSON text of either zero by its ``repr``; as keys the two would be one."""
 
 
 def shortest(value: float) -> float:

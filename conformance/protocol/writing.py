@@ -1,40 +1,33 @@
-"""Writing inputs as JSON, in one pass: JSON's own writer would print all seventeen digits of their floats."""
+"""Writing inputs as JSON, in one pass: JSON's own writer would print all seventeen digits of their floats.
+
+Writing is most of what asking an engine costs: how a value is written is found by one look-up of its type,
+and keys and numbers that have been written before are remembered.
+"""
 
 from __future__ import annotations
 
 import functools
 from json.encoder import encode_basestring
+from types import NoneType
 from typing import TYPE_CHECKING, Any, Final
 
 from conformance.inputs import is_float64_input
 from conformance.protocol.messages import json_text
-from conformance.protocol.spellings import SINGLES, spell_double, text_of
+from conformance.protocol.spellings import SINGLES, ZEROS, spell_double, text_of
 
 if TYPE_CHECKING:
-    from collections.abc import Callable
+    from collections.abc import Callable, Iterable
+    from typing import TypeAlias
 
     from conformance.protocol.dialects import Dialect
 
-_FLOATS: Final = {float}
-_WHOLES: Final = {int}
+    Write: TypeAlias = Callable[[Any], str]
+
 _MOST_KEYS: Final = 1 << 12
 """Keys whose texts are remembered; FORMAT.md has some hundred."""
 
 
-class _Keys(dict[str, str]):
-    """Keys as they stand before their values, written where they are first asked for."""
-
-    def __missing__(self, key: str) -> str:
-        if len(self) >= _MOST_KEYS:
-            self.clear()
-        text = self[key] = f"{encode_basestring(key)}:"
-        return text
-
-
-_KEYS: Final = _Keys()
-
-
-def inputs_text(value: Any, dialect: Dialect, key: str = "") -> str:
+def inputs_text(value: Any, dialect: Dialect) -> str:
     """Write inputs, or a shared record, as JSON without a blank in it.
 
     Parameters
@@ -43,41 +36,90 @@ def inputs_text(value: Any, dialect: Dialect, key: str = "") -> str:
         Inputs of an operation as `conformance.query` has them: floats are Python floats.
     dialect : {"decimal", "hex"}
         How floats are written; clock times are float64, all others float32.
-    key : str
-        The key that `value` stands under.
 
     Raises
     ------
     RecursionError
         If it is nested too deeply for JSON.
     """
-    return _writer(dialect)(value, key)
+    return _writers(dialect)[value.__class__](value)
+
+
+class _Writers(dict[type, "Write"]):
+    """How values of each type are written: by JSON's own writer, if nothing else is said."""
+
+    def __missing__(self, kind: type) -> Write:
+        return json_text
+
+
+class _Heads(dict[str, "tuple[str, _Writers]"]):
+    """What stands before the value of a key, and how the value is written."""
+
+    def __init__(self, singles: _Writers, doubles: _Writers) -> None:
+        super().__init__()
+        self._writers = singles, doubles
+
+    def __missing__(self, key: str) -> tuple[str, _Writers]:
+        if len(self) >= _MOST_KEYS:
+            self.clear()
+        head = self[key] = f"{encode_basestring(key)}:", self._writers[is_float64_input(key)]
+        return head
 
 
 @functools.cache
-def _writer(dialect: Dialect) -> Callable[[Any, str], str]:
-    single, keys = SINGLES[dialect].__getitem__, _KEYS
+def _writers(dialect: Dialect) -> _Writers:
+    """Return the writers of values whose floats are float32."""
+    plain: dict[type, Write] = {
+        int: int.__repr__,
+        str: encode_basestring,
+        bool: lambda value: "true" if value else "false",
+        NoneType: lambda _value: "null",
+    }
+    singles, doubles = _Writers(plain), _Writers(plain)
+    blocks = _block_writer(_Heads(singles, doubles))
+    singles |= {dict: blocks, float: _single_writer(dialect)}
+    doubles |= {dict: blocks, float: lambda value: text_of(spell_double(value, dialect))}
+    singles[list] = singles[tuple] = _list_writer(singles, _singles_writer(dialect))
+    doubles[list] = doubles[tuple] = _list_writer(doubles, functools.partial(map, doubles[float]))
+    return singles
 
-    def write(value: Any, key: str) -> str:
-        kind = value.__class__
-        if kind is dict:
-            parts = [keys[inner] + write(item, inner) for inner, item in value.items()]
-            return f"{{{','.join(parts)}}}"
-        if kind is list or kind is tuple:
-            return f"[{','.join(write_items(value, key))}]"
-        if kind is int:
-            return str(value)
-        if kind is float:
-            return text_of(spell_double(value, dialect)) if is_float64_input(key) else single(value)
-        return json_text(value)
 
-    def write_items(values: list[Any], key: str) -> list[str]:
-        # Most are vectors and indices: their items are not worth a call each.
-        kinds = set(map(type, values))
-        if kinds == _WHOLES:
-            return list(map(str, values))
-        if kinds == _FLOATS and not is_float64_input(key):
-            return list(map(single, values))
-        return [write(item, key) for item in values]
+def _block_writer(heads: _Heads) -> Write:
+    def write(block: dict[str, Any]) -> str:
+        parts = []
+        for key, item in block.items():
+            head, writers = heads[key]
+            parts.append(head + writers[item.__class__](item))
+        return f"{{{','.join(parts)}}}"
+
+    return write
+
+
+def _list_writer(writers: _Writers, write_floats: Callable[[list[float]], Iterable[str]]) -> Write:
+    def write(items: list[Any]) -> str:
+        kinds = set(map(type, items))
+        # Most are vectors, indices or records: one look-up does for all of their items.
+        if len(kinds) > 1:
+            return f"[{','.join([writers[item.__class__](item) for item in items])}]"
+        if float in kinds:
+            return f"[{','.join(write_floats(items))}]"
+        return f"[{','.join(map(writers[kinds.pop()], items))}]" if kinds else "[]"
+
+    return write
+
+
+def _single_writer(dialect: Dialect) -> Write:
+    texts, zeros = SINGLES[dialect], ZEROS[dialect]
+    return lambda value: texts[value] if value else zeros[repr(value)]
+
+
+def _singles_writer(dialect: Dialect) -> Callable[[list[float]], Iterable[str]]:
+    text, zeros = SINGLES[dialect].__getitem__, ZEROS[dialect]
+
+    def write(values: list[float]) -> Iterable[str]:
+        # Zeros are equal and yet two: they have to be looked at.
+        if 0.0 in values:
+            return [text(value) if value else zeros[repr(value)] for value in values]
+        return map(text, values)
 
     return write

@@ -11,6 +11,7 @@ from conformance.bench import messages
 from conformance.bench.messages import measure_messages
 from conformance.bench.report import Report
 from conformance.bench.timing import DisagreementError
+from conformance.candidates.oracle_candidate import OracleCandidate
 from conformance.loader import load_paths
 from conformance.protocol.server import outcome_body
 from conformance.query import Result
@@ -23,15 +24,26 @@ assert CASES, "no case about contact planes"
 
 
 def test_both_dialects_are_measured() -> None:
-    """A line each, in which nothing disagrees: every answer came through."""
+    """By both clocks, and nothing disagrees: every answer came through."""
     report, said = Report(1), []
-    measure_messages(CASES, 2, report, said.append)
+    measure_messages([CASES[:1], CASES[1:]], report, said.append)
     assert [(line.reference, line.note) for line in report.ratios] == [
         ("answers at hand", "messages, floats decimal; processor time"),
+        ("answers at hand", "messages, floats decimal; wall time"),
         ("answers at hand", "messages, floats hex; processor time"),
+        ("answers at hand", "messages, floats hex; wall time"),
     ]
-    assert [line.comparison.rounds for line in report.ratios] == [2, 2]
-    assert said[-1] == "messages, floats hex: round 2 of 2"
+    assert [line.comparison.rounds for line in report.ratios] == [2, 2, 2, 2]
+    assert said == ["messages: round 1 of 2, 1 cases", "messages: round 2 of 2, 1 cases"]
+
+
+def test_nobody_has_seen_a_scene_before() -> None:
+    """What retail keeps of a scene is made anew by everybody, as it is in a run of the suite."""
+    outcomes = [[OracleCandidate().answer(query) for query in case.queries] for case in CASES]
+    (first, _), (second, at_hand) = (messages._own_cases(CASES, outcomes) for _ in range(2))
+    scenes = [cases[0].queries[0].geometries for cases in (CASES, first, second)]
+    assert len({id(geometry) for scene in scenes for geometry in scene.values()}) == 3 * len(scenes[0])
+    assert [[at_hand.answer(query) for query in case.queries] for case in second] == outcomes
 
 
 def test_a_wrong_answer_is_no_measurement(monkeypatch: pytest.MonkeyPatch) -> None:
@@ -42,4 +54,4 @@ def test_a_wrong_answer_is_no_measurement(monkeypatch: pytest.MonkeyPatch) -> No
 
     monkeypatch.setattr(messages, "outcome_body", garbled)
     with pytest.raises(DisagreementError, match=f"^{CASES[0].id}: trace: retail D3"):
-        measure_messages(CASES, 1, Report(1), lambda _said: None)
+        measure_messages([CASES], Report(1), lambda _said: None)

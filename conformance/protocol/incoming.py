@@ -1,0 +1,90 @@
+"""The lines that an engine writes, taken from its pipe by a thread."""
+
+from __future__ import annotations
+
+import contextlib
+import os
+import queue
+import threading
+import time
+from collections import deque
+from typing import IO, Final
+
+from conformance.protocol.messages import MOST_BYTES
+
+_CHUNK: Final = 1 << 16
+"""Most bytes that are taken from the pipe at once: many lines then cost one hand-over."""
+_MOST_WAITING: Final = 16
+"""Chunks that wait to be split into lines; an engine that writes more has to wait itself."""
+_JOIN_SECONDS: Final = 0.01
+
+
+class ReadTimeoutError(Exception):
+    """The engine has not written a line in time."""
+
+
+class Incoming:
+    """Reads lines ahead, so that nobody has to wait for an engine longer than he wants.
+
+    Parameters
+    ----------
+    pipe : file
+        Is read, and closed at its end, by a thread of its own.
+    """
+
+    def __init__(self, pipe: IO[bytes]) -> None:
+        self._chunks: queue.Queue[bytes] = queue.Queue(_MOST_WAITING)
+        self._lines: deque[bytes] = deque()
+        self._begun = bytearray()  # a line whose end has not come yet
+        self._ended = False
+        self._thread = threading.Thread(target=_read, args=(pipe, self._chunks), daemon=True)
+        self._thread.start()
+
+    def next_line(self, seconds: float) -> bytes:
+        """Return the next line with its end, or nothing if there is none any more.
+
+        What stands after the last line end, and the beginning of a line that is too long to be a reply, are
+        returned as lines without an end.
+
+        Raises
+        ------
+        ReadTimeoutError
+            If the line is not whole in time.
+        """
+        if self._lines:
+            return self._lines.popleft()
+        deadline = time.monotonic() + seconds
+        while not (self._lines or self._ended or len(self._begun) > MOST_BYTES):
+            self._take(deadline - time.monotonic())
+        return self._lines.popleft() if self._lines else self._taken_out()
+
+    def close(self) -> None:
+        """Let the thread end; the pipe's other end must be closed."""
+        while self._thread.is_alive():
+            with contextlib.suppress(queue.Empty):
+                self._chunks.get_nowait()
+            self._thread.join(_JOIN_SECONDS)
+
+    def _take(self, seconds: float) -> None:
+        try:
+            chunk = self._chunks.get(timeout=max(seconds, 0.0))
+        except queue.Empty:
+            raise ReadTimeoutError from None
+        self._ended = not chunk
+        self._begun += chunk
+        if b"\n" in chunk:
+            *whole, rest = bytes(self._begun).split(b"\n")
+            self._lines.extend([line + b"\n" for line in whole])
+            self._begun[:] = rest
+
+    def _taken_out(self) -> bytes:
+        line = bytes(self._begun)
+        self._begun.clear()
+        return line
+
+
+def _read(pipe: IO[bytes], chunks: queue.Queue[bytes]) -> None:
+    with pipe:
+        while chunk := os.read(pipe.fileno(), _CHUNK):
+            chunks.put(chunk)
+    chunks.put(b"")
