@@ -16,7 +16,8 @@ _CHUNK: Final = 1 << 16
 """Most bytes that are taken from the pipe at once: many lines then cost one hand-over."""
 _MOST_WAITING: Final = 16
 """Chunks that wait to be split into lines; an engine that writes more has to wait itself."""
-_JOIN_SECONDS: Final = 0.01
+_PAUSE: Final = 0.01
+"""Seconds after which it is looked again whether there is room, or whether the thread has ended."""
 
 
 class ReadTimeoutError(Exception):
@@ -33,7 +34,7 @@ class Incoming:
     """
 
     def __init__(self, pipe: IO[bytes]) -> None:
-        self._chunks: queue.Queue[bytes] = queue.Queue(_MOST_WAITING)
+        self._chunks: queue.SimpleQueue[bytes] = queue.SimpleQueue()
         self._lines: deque[bytes] = deque()
         self._begun = bytearray()  # a line whose end has not come yet
         self._ended = False
@@ -63,7 +64,7 @@ class Incoming:
         while self._thread.is_alive():
             with contextlib.suppress(queue.Empty):
                 self._chunks.get_nowait()
-            self._thread.join(_JOIN_SECONDS)
+            self._thread.join(_PAUSE)
 
     def _take(self, seconds: float) -> None:
         try:
@@ -83,8 +84,10 @@ class Incoming:
         return line
 
 
-def _read(pipe: IO[bytes], chunks: queue.Queue[bytes]) -> None:
+def _read(pipe: IO[bytes], chunks: queue.SimpleQueue[bytes]) -> None:
     with pipe:
         while chunk := os.read(pipe.fileno(), _CHUNK):
             chunks.put(chunk)
+            while chunks.qsize() >= _MOST_WAITING:
+                time.sleep(_PAUSE)
     chunks.put(b"")
