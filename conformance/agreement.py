@@ -12,7 +12,7 @@ from conformance.random_run import DisagreementError, RandomRun, ask_at_random, 
 from conformance.summary import PROPERTY
 
 if TYPE_CHECKING:
-    from collections.abc import Callable
+    from collections.abc import Callable, Mapping
 
     from hypothesis.strategies import SearchStrategy
 
@@ -28,9 +28,18 @@ class Agree(Protocol):
 
 
 @pytest.fixture
+def record_counts(request: pytest.FixtureRequest) -> Callable[[Mapping[str, object]], None]:
+    """Return what a test tells how much it has asked; the summary adds it up.
+
+    What pytest has for it, ``record_property``, warns beside ``--junitxml``, and warnings may be errors.
+    """
+    return lambda counts: request.node.user_properties.append((PROPERTY, dict(counts)))
+
+
+@pytest.fixture
 def agree(
     request: pytest.FixtureRequest,
-    record_property: Callable[[str, object], None],
+    record_counts: Callable[[Mapping[str, object]], None],
     candidate: Candidate,
     oracle: Candidate,
 ) -> Agree:
@@ -49,7 +58,7 @@ def agree(
             failure = f"{name}: {error}"
             explanation = explain(run, directory, candidate, name=name, profile=profile)
             request.node.add_report_section("call", "disagreement", explanation)
-        record_property(PROPERTY, {**run.counts(), **({"failure": failure} if failure else {})})
+        record_counts({**run.counts(), **({"failure": failure} if failure else {})})
         if failure:
             pytest.fail(failure, pytrace=False)
         if not run.compared:

@@ -5,12 +5,12 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from conformance import plugin, profiles
-from conformance.agreement import agree
+from conformance.agreement import agree, record_counts
 
 if TYPE_CHECKING:
     import pytest
 
-__all__ = ["agree"]
+__all__ = ["agree", "record_counts"]
 
 profiles.register()
 

@@ -8,10 +8,9 @@ import pytest
 
 from conformance.laws.catalogue import LAWS
 from conformance.laws.law import BrokenLawError, LawRun, hold
-from conformance.summary import PROPERTY
 
 if TYPE_CHECKING:
-    from collections.abc import Callable
+    from collections.abc import Callable, Mapping
 
     from conformance.candidates.base import Candidate
 
@@ -20,7 +19,7 @@ QUERIES: Final = 0.25
 
 
 @pytest.mark.parametrize("name", LAWS)
-def test_law(name: str, candidate: Candidate, record_property: Callable[[str, object], None]) -> None:
+def test_law(name: str, candidate: Candidate, record_counts: Callable[[Mapping[str, object]], None]) -> None:
     """The candidate keeps the law, under the condition that its docstring gives."""
     run = LawRun()
     failure = ""
@@ -28,7 +27,7 @@ def test_law(name: str, candidate: Candidate, record_property: Callable[[str, ob
         hold(LAWS[name], candidate, run, multiple=QUERIES)
     except BrokenLawError as error:
         failure = str(error)
-    record_property(PROPERTY, {**run.counts(), **({"failure": failure} if failure else {})})
+    record_counts({**run.counts(), **({"failure": failure} if failure else {})})
     if failure:
         pytest.fail(failure, pytrace=False)
     if not run.compared:

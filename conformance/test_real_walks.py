@@ -21,7 +21,6 @@ from conformance.scenes.planes import unit_normal
 from conformance.scenes.poses import moved_queries, seeded_poses, transform_query
 from conformance.scenes.rigid import Transform, move_point
 from conformance.step_outputs import start_of, steps
-from conformance.summary import PROPERTY
 from conformance.vector_io import query_from_record
 from oracle.constants import FLOOR_Z
 
@@ -112,7 +111,7 @@ def test_walk_across_a_real_cell(
     fixtures_dir: Path,
     candidate: Candidate,
     oracle: Candidate,
-    record_property: Callable[[str, object], None],
+    record_counts: Callable[[Mapping[str, object]], None],
 ) -> None:
     """From floor to floor, as it stands and in random poses; it has ground in most ticks as it stands."""
     query = _walk(op, load_folder(fixtures_dir).cells[cell_id])
@@ -121,7 +120,7 @@ def test_walk_across_a_real_cell(
     assert sum(grounded) > len(grounded) / 2
     for pose in seeded_poses(POSES, cell_id):
         _agreed(transform_query(query, pose), candidate, oracle)
-    record_property(PROPERTY, {"random": 1 + POSES})
+    record_counts({"random": 1 + POSES})
 
 
 @pytest.mark.parametrize("name", ROUTES)
@@ -130,7 +129,7 @@ def test_walk_through_the_portals_of_real_cells(
     fixtures_dir: Path,
     candidate: Candidate,
     oracle: Candidate,
-    record_property: Callable[[str, object], None],
+    record_counts: Callable[[Mapping[str, object]], None],
 ) -> None:
     """From cell to cell, in random poses too; as they stand the cells are those of the route."""
     route = ROUTES[name]
@@ -142,7 +141,7 @@ def test_walk_through_the_portals_of_real_cells(
     assert ticks[-1]["outcome"] == route.outcome
     for moved in moved_queries(query, POSES, zlib.crc32(name.encode())):
         _agreed(moved, candidate, oracle)
-    record_property(PROPERTY, {"random": 1 + POSES})
+    record_counts({"random": 1 + POSES})
 
 
 def _routed(name: str, route: Route, worlds: list[World]) -> Query:

@@ -130,7 +130,12 @@ def _run_worker(command: Sequence[str], tally: Path, report: Report, say: Callab
     """Run a worker to its end, and add to the report what came of it."""
     new_tally(tally)
     with subprocess.Popen(  # noqa: S603 - our own module, with arguments of our own
-        command, stderr=subprocess.PIPE, stdout=subprocess.DEVNULL, encoding="utf-8", errors="replace"
+        command,
+        stdin=subprocess.PIPE,  # held open as long as this process lives
+        stderr=subprocess.PIPE,
+        stdout=subprocess.DEVNULL,
+        encoding="utf-8",
+        errors="replace",
     ) as worker:
         try:
             _follow(worker.stderr or (), report, say)

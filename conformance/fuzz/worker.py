@@ -1,8 +1,8 @@
 """Run a target under libFuzzer: ``python -m conformance.fuzz.worker TARGET TALLY [libFuzzer's arguments]``.
 
-`conformance fuzz` starts it; libFuzzer ends the process by itself. Two things are left out that take two
-thirds of the time and are none of our code: guesses of what was meant, and the second look at a syntax error.
-Replaying the corpus, as the tests do, runs them.
+`conformance fuzz` starts it; libFuzzer ends the process by itself, and so does the end of stdin. Two things
+are left out that take two thirds of the time and are none of our code: guesses of what was meant, and the
+second look at a syntax error. Replaying the corpus, as the tests do, runs them.
 """
 
 from __future__ import annotations
@@ -19,6 +19,7 @@ import atheris
 from conformance.fuzz.tally import Tally
 from conformance.fuzz.targets import TARGETS
 from conformance.fuzz.text_mutations import mutate
+from conformance.workers import end_with_stdin
 
 REWORDED: Final = 64
 """Characters of the longest text whose syntax error is also looked up with PyYAML's slow parser."""
@@ -26,6 +27,7 @@ REWORDED: Final = 64
 
 def main() -> None:
     """Fuzz the target that the command line names, and count in the file that it names."""
+    end_with_stdin()
     target = TARGETS[sys.argv[1]]
     module: Any = difflib
     module.get_close_matches = lambda *_args, **_options: []  # guesses of what was meant

@@ -14,6 +14,7 @@ from conformance.mutation.journal import Journal, digest_of
 from conformance.mutation.operators import plans
 from conformance.mutation.reach import reaches
 from conformance.mutation.trial import Trial
+from conformance.workers import end_with_parent
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Collection, Iterator, Mapping, Sequence
@@ -132,6 +133,7 @@ class _Worker:
 
 
 def _begin(documents: tuple[str, ...], asked: Asked) -> None:
+    end_with_parent()
     _Worker.plans = all_plans(documents)
     _Worker.trial = Trial(*asked)
 

@@ -16,6 +16,7 @@ from conformance.soak.identity import identity_of
 from conformance.soak.records import Identity
 from conformance.soak.shard import ask_shard
 from conformance.soak.shrinking import found_case
+from conformance.workers import end_with_parent
 
 if TYPE_CHECKING:
     from multiprocessing.synchronize import Event
@@ -133,6 +134,7 @@ def shrink(work: Work, spot: Spot) -> FoundCase:
 def open_process(stopped: Event) -> None:
     """Prepare a process of its own; Ctrl-C is for who has started it, and tells by the event."""
     signal.signal(signal.SIGINT, signal.SIG_IGN)
+    end_with_parent()
     _STOPS.append(stopped)
 
 

@@ -13,6 +13,7 @@ from typing import TYPE_CHECKING, Final
 
 from conformance.stress.families import FAMILIES
 from conformance.stress.models import make_models
+from conformance.workers import end_with_parent
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Sequence
@@ -193,6 +194,7 @@ _workers: list[Worker] = []
 def _open(settings: Settings, candidate: Spec, said: SimpleQueue[str], stopped: Event) -> None:
     """Prepare a worker process; Ctrl-C is the parent's to act on."""
     signal.signal(signal.SIGINT, signal.SIG_IGN)
+    end_with_parent()
     _workers.append(Worker(settings, candidate, said, stopped))
 
 

@@ -56,7 +56,8 @@ def test_a_bug_is_found_kept_and_replayed(tmp_path: Path) -> None:
     asked = [line for line in lines if "PASSED" in line or "FAILED" in line]
     assert f"{found.name}::{found.stem} FAILED" in asked[0]
     assert "test_frame[block_offset] PASSED" in asked[1]
-    code, lines = run(tmp_path, *replay, "--candidate", "oracle")
+    strict = ("-W", "error", "--junitxml", str(tmp_path / "junit.xml"))  # as a build server may run it
+    code, lines = run(tmp_path, *replay, "--candidate", "oracle", *strict)
     assert code == 0, lines
 
 
