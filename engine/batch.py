@@ -11,7 +11,6 @@ from engine.body_layout import MAX_RECORDS, STATUS_CROWDED
 from engine.coherence import order_for
 from engine.errors import CrowdedError, QueryError, RecursionBoundError, UndeterminedError
 from engine.kernels import program
-from engine.kernels.order import CALLS, MOVES
 from engine.object_call import ObjectCall, object_rows
 from engine.plan import FULL_PLAN, NO_PLAN, Plan
 from engine.query import CollisionCall, Move, collision_rows, move_rows
@@ -151,11 +150,12 @@ def _run(job: int, world: World, rows: Rows, threads: int, plan: Plan, *, cohere
     results = np.empty(len(rows), dtype=at.RESULT_DTYPE)
     answers = results.view(np.float64).reshape(len(rows), at.RESULT_SIZE)
     run = runnable(program.run)
-    kind = MOVES if job == program.RESOLVE else CALLS
-    order = order_for(kind, queries, coherent=coherent)
+    order = order_for(len(rows), threads, coherent=coherent)
 
     def work(share: Ints) -> None:
-        run(world.floats, world.ints, world.new_row(plan=plan), job, queries, answers, order, share)
+        row = world.take_row(plan)
+        run(world.floats, world.ints, row, job, queries, answers, order, share)
+        world.give_back(row)
 
     if together(work, len(rows), threads):
         check_status(results["status"], results)

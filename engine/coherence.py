@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING, Final
 import numpy as np
 
 from engine.kernels import order as kernels
-from engine.probes import note_reordered
+from engine.threads import sharing
 from engine.tracing import is_recording
 
 if TYPE_CHECKING:
@@ -48,20 +48,28 @@ def order_of(kind: int, rows: Array) -> Order:
     return order if kernels.order_all(kind, rows, order, own, buckets) else AS_ASKED
 
 
-def order_for(kind: int, rows: Array, *, coherent: bool) -> Order:
-    """Return the order in which a batch is answered, and count what has been reordered.
+def order_for(count: int, threads: int, *, coherent: bool) -> Order:
+    """Return room for the order of a batch, which is made while it is answered.
 
-    While writes are recorded it is that in which the rows lie: who reads the record reads it in that order.
+    Each thread puts the part that it begins with in order itself: nobody waits, and threads do not write
+    beside each other (`engine.kernels.sharing`). While writes are recorded the order is that in which rows
+    lie: who reads the record reads it in that order.
 
     Parameters
     ----------
-    kind, rows
-        As those of `order_of`.
+    count : int
+        How many rows there are.
+    threads : int
+        How many share them.
     coherent : bool
         Whether there may be another order than that in which the rows lie.
+
+    Raises
+    ------
+    QueryError
+        If `threads` is not a number of threads.
     """
-    if not coherent or is_recording():
+    lanes = sharing(count, threads)
+    if not coherent or count < _SMALLEST * lanes or is_recording():
         return AS_ASKED
-    order = order_of(kind, rows)
-    note_reordered(len(order))
-    return order
+    return np.empty(2 * count + lanes * _BUCKETS, dtype=np.int32)

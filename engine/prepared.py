@@ -10,7 +10,7 @@ from engine import layout as at
 from engine.batch import check_status
 from engine.coherence import AS_ASKED
 from engine.kernels import program
-from engine.kernels.sharing import SHARE_NEXT
+from engine.kernels.sharing import LANE_INTS, LANE_NEXT
 from engine.plan import FULL_PLAN, NO_PLAN, Plan
 from engine.query import CollisionCall, Move, collision_rows, move_rows
 from engine.threads import new_share
@@ -19,7 +19,7 @@ from engine.tracing import runnable
 if TYPE_CHECKING:
     from engine.world import World
 
-_NEXT: Final = int(SHARE_NEXT)
+_NEXT: Final = int(LANE_INTS + LANE_NEXT)
 
 
 class Prepared:

@@ -16,7 +16,6 @@ from engine.effort import check_tick
 from engine.errors import QueryError
 from engine.float32 import float32_array
 from engine.kernels import program, tick_velocity
-from engine.kernels.order import BODIES
 from engine.kernels.tick_gates import MAX_TICKS
 from engine.layout import VECTOR_SIZE
 from engine.plan import FULL_PLAN, Plan
@@ -92,12 +91,14 @@ def step_many(
     if not quantum > 0.0:
         raise QueryError("dt", f"{dt} seconds is not greater than 0")
     numbers = _ready(rows)
-    order = order_for(BODIES, numbers, coherent=coherent)
+    order = order_for(len(rows), threads, coherent=coherent)
     check_tick(rows, quantum)
     run, times = runnable(program.run), np.array([[quantum, float(ticks)]])
 
     def work(share: Ints) -> None:
-        run(world.floats, world.ints, world.new_row(plan=plan), program.STEP, numbers, times, order, share)
+        row = world.take_row(plan)
+        run(world.floats, world.ints, row, program.STEP, numbers, times, order, share)
+        world.give_back(row)
 
     if together(work, len(rows), threads):
         check_status(rows["status"])
@@ -138,14 +139,16 @@ def update_many(
     if not math.isfinite(now):
         raise QueryError("now", f"{now} is not a time")
     numbers = _ready(rows)
-    order = order_for(BODIES, numbers, coherent=coherent)
+    order = order_for(len(rows), threads, coherent=coherent)
     check_tick(rows, MAX_QUANTUM)
     run = runnable(program.run)
 
     def work(share: Ints) -> None:
         times = np.zeros((3, int(MAX_TICKS)), dtype=np.float64)
         times[0, 0] = now
-        run(world.floats, world.ints, world.new_row(plan=plan), program.UPDATE, numbers, times, order, share)
+        row = world.take_row(plan)
+        run(world.floats, world.ints, row, program.UPDATE, numbers, times, order, share)
+        world.give_back(row)
 
     if together(work, len(rows), threads):
         check_status(rows["status"])

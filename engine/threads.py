@@ -1,8 +1,9 @@
 """Many queries on several threads: each takes the next few, and answers them in a row of state of its own.
 
-Queries are taken in turn, not dealt out: they differ in cost, and a thread may lose its core for a while.
-They are taken inside the kernels (`engine.kernels.sharing`), so that each thread needs the interpreter's lock
-once. Helpers wait for the next batch when one is done: to start them takes as long as a small batch does.
+Each begins with its own part of them, but nothing is dealt out for good: queries differ in cost, and a
+thread may lose its core for a while. They are taken inside the kernels (`engine.kernels.sharing`), so that
+each thread needs the interpreter's lock once. Helpers wait for the next batch when one is done: to start
+them takes as long as a small batch does.
 """
 
 from __future__ import annotations
@@ -10,7 +11,7 @@ from __future__ import annotations
 import os
 from functools import cache
 from queue import SimpleQueue
-from threading import Event, Thread
+from threading import Lock, Thread
 from time import perf_counter, sleep
 from typing import TYPE_CHECKING, Final
 
@@ -18,7 +19,16 @@ import numpy as np
 
 from engine.checks import told
 from engine.errors import QueryError
-from engine.kernels.sharing import SHARE_DONE, SHARE_FAILED, SHARE_INTS, SHARE_NEXT, SHARE_SIZE
+from engine.kernels.sharing import (
+    LANE_END,
+    LANE_INTS,
+    LANE_NEXT,
+    SHARE_DONE,
+    SHARE_FAILED,
+    SHARE_LANES,
+    SHARE_REORDERED,
+)
+from engine.probes import note_reordered
 from engine.tracing import is_recording
 
 if TYPE_CHECKING:
@@ -26,19 +36,32 @@ if TYPE_CHECKING:
 
     from engine.kernels.types import Ints
 
-TURNS: Final = 8
-"""Turns that a thread would have at least if all went at the same speed: who is last is that much behind."""
-MOST_AT_A_TIME: Final = 64
-"""Queries of one turn: the more, the longer the last thread may be waited for."""
 PATIENCE: Final = 0.0005
 """Seconds in which a helper's last turn is waited for awake: to be woken takes as long as many queries."""
 
 
 def new_share(count: int, threads: int = 1) -> Ints:
     """Return what so many threads share of so many queries, before the first is taken."""
-    share = np.zeros(int(SHARE_INTS), dtype=np.int64)
-    share[SHARE_SIZE] = count if threads == 1 else min(max(count // (TURNS * threads), 1), MOST_AT_A_TIME)
+    share = np.zeros((1 + threads) * int(LANE_INTS), dtype=np.int64)
+    share[SHARE_LANES] = threads
+    for lane in range(threads):
+        first = int(LANE_INTS) * (1 + lane)
+        share[first + LANE_NEXT] = count * lane // threads
+        share[first + LANE_END] = count * (lane + 1) // threads
     return share
+
+
+def sharing(count: int, threads: int) -> int:
+    """Return how many threads share so many queries, which is how many lanes these have.
+
+    Raises
+    ------
+    QueryError
+        If `threads` is not a number of threads.
+    """
+    if not isinstance(threads, int) or threads < 1:
+        raise QueryError("threads", f"{told(threads)} where at least 1 is needed")
+    return 1 if is_recording() else max(min(threads, count), 1)
 
 
 def together(work: Callable[[Ints], None], count: int, threads: int) -> int:
@@ -65,18 +88,19 @@ def together(work: Callable[[Ints], None], count: int, threads: int) -> int:
     QueryError
         If `threads` is not a number of threads.
     """
-    if not isinstance(threads, int) or threads < 1:
-        raise QueryError("threads", f"{told(threads)} where at least 1 is needed")
-    sharing = 1 if is_recording() else max(min(threads, count), 1)
-    share = new_share(count, sharing)
-    helping = [_Task(work, share) for _ in range(sharing - 1)]
+    at_work = sharing(count, threads)
+    share = new_share(count, at_work)
+    helping = [_Task(work, share) for _ in range(at_work - 1)]
     for task in helping:
         _helpers(os.getpid()).put(task)
     try:
         work(share)
+    except BaseException:
+        share[LANE_INTS + LANE_NEXT :: LANE_INTS] = count
+        raise
     finally:
-        share[SHARE_NEXT] = count
         _await(share, count, helping)
+    note_reordered(int(share[SHARE_REORDERED]))
     return int(share[SHARE_FAILED])
 
 
@@ -109,7 +133,8 @@ class _Task:
         self._work: Final = work
         self._share: Final = share
         self._has_begun = False
-        self._ended: Final = Event()
+        self._at_work: Final = Lock()
+        self._at_work.acquire()
         self._error: BaseException | None = None
 
     def do(self) -> None:
@@ -120,12 +145,12 @@ class _Task:
         except BaseException as error:  # noqa: BLE001 - raised again in the thread that waits
             self._error = error
         finally:
-            self._ended.set()
+            self._at_work.release()
 
     def wait(self) -> None:
         """Wait for the end, unless it has not begun; raise what has been raised."""
         if self._has_begun:
-            self._ended.wait()
+            self._at_work.acquire()
         if self._error is not None:
             raise self._error
 

@@ -10,7 +10,6 @@ from engine import layout as at
 from engine.coherence import order_for
 from engine.errors import QueryError
 from engine.kernels import tree_calls
-from engine.kernels.order import SPHERES
 from engine.threads import together
 from engine.tracing import runnable
 
@@ -154,10 +153,12 @@ def _run(
     coherent: bool,
 ) -> None:
     run, root = runnable(kernel), _tree(world, cell)
-    order = order_for(SPHERES, rows[0], coherent=coherent)
+    order = order_for(len(rows[0]), threads, coherent=coherent)
 
     def work(share: Ints) -> None:
-        run(world.floats, world.ints, world.new_row(), root, *rows, order, share)
+        row = world.take_row()
+        run(world.floats, world.ints, row, root, *rows, order, share)
+        world.give_back(row)
 
     together(work, len(rows[0]), threads)
 

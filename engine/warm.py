@@ -9,10 +9,8 @@ import numpy as np
 from engine.batch import find_collisions, find_object_collisions_many, resolve
 from engine.body import Body, body_rows
 from engine.cells import Cell
-from engine.coherence import order_of
 from engine.geometry import Leaf, Shape
-from engine.kernels.order import SMALLEST, SPHERES
-from engine.layout import QUERY_DTYPE, SPHERE_SIZE
+from engine.layout import QUERY_DTYPE
 from engine.pose import Pose
 from engine.query import CollisionCall, Move, Mover
 from engine.step import step_many, update_many
@@ -39,6 +37,5 @@ def warmup() -> None:
     step_many(world, bodies, 0.1, 1)
     update_many(world, bodies, 1.0)
     spheres, ways = [(0.0, 0.0, 0.25, 0.5)], [(0.0, 0.0, -0.5)]
-    order_of(int(SPHERES), np.zeros((int(SMALLEST), int(SPHERE_SIZE))))
     strike_many(world, 0, spheres, ways)
     step_down_many(world, 0, spheres, ways, [(0.0, 0.0, 1.0)], [0.5], [1.0])

@@ -122,6 +122,7 @@ class World:
         header |= write_clearances(storage, header, cells)
         self.floats, self.ints = storage.finish(header)
         self._polygons: Final = storage.polygons
+        self._spare_rows: Final[list[Array]] = []
 
     @property
     def num_objects(self) -> int:
@@ -168,6 +169,24 @@ class World:
         row[at.TRACE_CAPACITY] = trace_capacity
         row[at.PLAN] = 0 if trace_capacity else plan.skip
         return row
+
+    def take_row(self, plan: Plan = NO_PLAN) -> Array:
+        """Return a row of state as `new_row` does, one that was given back if there is any.
+
+        To make one takes as long as dozens of queries. A row has one user at a time: it is on the list or
+        taken from it, and the list lets no two threads take the same.
+        """
+        try:
+            row = self._spare_rows.pop()
+        except IndexError:
+            return self.new_row(plan=plan)
+        row[: at.STATE_SIZE] = 0.0
+        row[at.PLAN] = plan.skip
+        return row
+
+    def give_back(self, row: Array) -> None:
+        """Keep a row that nobody uses any more for whoever needs the next, in whatever thread."""
+        self._spare_rows.append(row)
 
     def touched(self, row: Array) -> list[int]:
         """Return the indices of the obstacles that a query's row says were touched, in order."""

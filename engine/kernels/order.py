@@ -17,6 +17,16 @@ from engine.constants import ACTIVE_TS, BLOCK_EDGE, frozen
 from engine.kernels.ahead import bring_near
 from engine.kernels.compile import entry, inlined, kernel
 from engine.kernels.indexing import unsigned
+from engine.kernels.sharing import (
+    LANE_END,
+    LANE_INTS,
+    LANE_NEXT,
+    SHARE_REORDERED,
+    add_to,
+    is_first,
+    make_ready,
+    wait_for,
+)
 from engine.layout import (
     COLLISION_INFO,
     CONTACT_VALID,
@@ -29,7 +39,7 @@ from engine.layout import (
 )
 
 if TYPE_CHECKING:
-    from engine.kernels.types import Array, Order
+    from engine.kernels.types import Array, Ints, Order
 
 SPHERES: Final = frozen(0)
 """Rows that begin with where they are: centres of spheres."""
@@ -200,6 +210,33 @@ def put_in_order(
         order[unsigned(buckets[bucket])] = i
         buckets[bucket] += 1
     return last - first
+
+
+@kernel
+def order_lane(kind: int, rows: Array, order: Order, share: Ints, lane: int) -> None:
+    """Have the rows of a lane sorted by the thread that comes to it first; the others wait until it has.
+
+    Parameters
+    ----------
+    kind, rows
+        As those of `put_in_order`.
+    order : ndarray of int32, shape (0,) or (2 n + lanes * BUCKETS,)
+        Takes the numbers of rows, and holds the room for sorting behind them. Empty: they stay as they lie.
+    share : ndarray of int64
+    lane : int
+        Where it lies in the share.
+    """
+    if len(order) == 0:
+        return
+    if is_first(share, lane):
+        count = len(rows)
+        room = 2 * count + BUCKETS * (lane // LANE_INTS - 1)
+        own, buckets = order[count : 2 * count], order[room : room + BUCKETS]
+        first, last = share[lane + LANE_NEXT], share[lane + LANE_END]
+        add_to(share, SHARE_REORDERED, put_in_order(kind, rows, first, last, order, own, buckets))
+        make_ready(share, lane)
+    else:
+        wait_for(share, lane)
 
 
 @entry

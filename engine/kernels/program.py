@@ -14,9 +14,9 @@ from engine.kernels.ahead import bring_near, bring_nearer
 from engine.kernels.collisions import collide
 from engine.kernels.compile import entry, inlined, kernel
 from engine.kernels.object_calls import meet
-from engine.kernels.order import turn
+from engine.kernels.order import BODIES, CALLS, MOVES, order_lane, turn
 from engine.kernels.resolving import resolve
-from engine.kernels.sharing import SHARE_SIZE, put_back, take
+from engine.kernels.sharing import SHARE_LANES, join, lane_after, put_back, take
 from engine.kernels.tick import step
 from engine.kernels.tick_gates import update
 from engine.kernels.tick_placement import place
@@ -81,7 +81,7 @@ def _resolve_some(
     """Answer some moves; return how many could not be. A loop of their own spares them the other jobs."""
     failed = 0
     for k in range(first, last):
-        i, later = turn(order, k), turn(order, min(k + AHEAD, len(rows) - 1))
+        i, later = turn(order, k), turn(order, min(k + AHEAD, last - 1))
         bring_near(rows, QUERY_SIZE * later, QUERY_SIZE)
         bring_near(out, RESULT_SIZE * later, RESULT_SIZE)
         resolve(wf, wi, s, rows[i], out[i])
@@ -89,22 +89,49 @@ def _resolve_some(
     return failed
 
 
+@inlined
+def _kind_of(job: int) -> int:
+    """Return by what the rows of a job are put in order."""
+    if job == RESOLVE:
+        return MOVES
+    return CALLS if job in (COLLIDE, MEET) else BODIES
+
+
+# Not inlined: LLVM would make a copy of everything for each job.
+@kernel
+def _do_some(
+    wf: Array,
+    wi: Ints,
+    s: Array,
+    job: int,
+    rows: Array,
+    out: Array,
+    order: Order,
+    first: int,
+    last: int,
+) -> int:
+    """Do a job for some rows; return for how many it failed."""
+    if job == RESOLVE:
+        return _resolve_some(wf, wi, s, rows, out, order, first, last)
+    failed = 0
+    for k in range(first, last):
+        _bring(job, rows, out, turn(order, min(k + FAR_AHEAD, last - 1)))
+        failed += _do(wf, wi, s, job, rows, out, turn(order, k)) != STATUS_OK
+    return failed
+
+
 @entry
 def run(wf: Array, wi: Ints, s: Array, job: int, rows: Array, out: Array, order: Order, share: Ints) -> None:
     """Do a job for rows that are taken from a share, one after the other, in one row of state.
 
-    `order` says which row has which turn (`engine.kernels.order`); an empty one: as they lie.
+    `order` has room for which row has which turn (`engine.kernels.order.order_lane`); none: as they lie.
     `out` gets a row of results for each query; what it is for bodies, `STEP`, `UPDATE` and `PLACE` say.
     """
-    first = take(share)
-    while first < len(rows):
-        failed = 0
-        last = min(first + share[SHARE_SIZE], len(rows))
-        if job == RESOLVE:
-            failed += _resolve_some(wf, wi, s, rows, out, order, first, last)
-        else:
-            for k in range(first, last):
-                _bring(job, rows, out, turn(order, min(k + FAR_AHEAD, len(rows) - 1)))
-                failed += _do(wf, wi, s, job, rows, out, turn(order, k)) != STATUS_OK
-        put_back(share, last - first, failed)
-        first = take(share)
+    own = join(share)
+    for k in range(share[SHARE_LANES]):
+        lane = lane_after(share, own, k)
+        order_lane(_kind_of(job), rows, order, share, lane)
+        first, last = take(share, lane)
+        while first < last:
+            put_back(share, last - first, _do_some(wf, wi, s, job, rows, out, order, first, last))
+            first, last = take(share, lane)

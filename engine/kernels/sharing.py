@@ -1,7 +1,10 @@
-"""Many rows shared by threads: each takes the next few when it is done with the last.
+"""Many rows shared by threads: each begins with rows of its own, and then helps the others with theirs.
 
-What they share is an array of four integers. A thread takes rows inside compiled code, without the
-interpreter's lock, in one step that no other thread can come between.
+Rows are cut into lanes, one for each thread, of rows that lie together: two threads that wrote beside each
+other would take each other's cache lines away. A thread takes the next few rows of its lane when it is done
+with the last, and when there are none left, those of the other lanes. What they share is an array of
+integers; rows are taken inside compiled code, without the interpreter's lock, in one step that no other
+thread can come between.
 """
 
 from __future__ import annotations
@@ -17,15 +20,31 @@ from engine.kernels.compile import inlined
 if TYPE_CHECKING:
     from engine.kernels.types import Ints
 
-SHARE_NEXT: Final = frozen(0)
-"""The first row that nobody has taken."""
-SHARE_SIZE: Final = frozen(1)
-"""How many are taken at a time."""
+SHARE_JOINED: Final = frozen(0)
+"""How many threads have begun."""
+SHARE_LANES: Final = frozen(1)
+"""How many lanes there are."""
 SHARE_FAILED: Final = frozen(2)
 """How many could not be answered."""
 SHARE_DONE: Final = frozen(3)
 """How many have been done with, answered or not: when it is all of them, nobody needs to be waited for."""
-SHARE_INTS: Final = frozen(4)
+SHARE_REORDERED: Final = frozen(4)
+"""How many have been put in another order than they lie in (`engine.kernels.order`)."""
+LANE_INTS: Final = frozen(16)
+"""Integers of a lane, and of what is before the first: two cache lines, since they are fetched in pairs."""
+LANE_NEXT: Final = frozen(0)
+"""The first row of the lane that nobody has taken."""
+LANE_END: Final = frozen(1)
+"""The row behind its last."""
+LANE_BEGUN: Final = frozen(2)
+"""How many threads have come to the lane."""
+LANE_READY: Final = frozen(3)
+"""1 when its rows may be taken, if something has to be done before."""
+PARTS: Final = frozen(4)
+"""A turn is one of so many parts of what is left in a lane, so that nobody is waited for with much to do."""
+FEWEST: Final = frozen(4)
+MOST: Final = frozen(256)
+"""Rows of a turn, at least and at most: fewer are not worth the way back, more gain nothing."""
 
 
 def _addition(_typing: Any, numbers: Any, _place: Any, _amount: Any) -> Any:
@@ -53,13 +72,51 @@ def add_to(numbers: Ints, place: int, amount: int) -> int:
 
 
 @inlined
-def take(share: Ints) -> int:
-    """Take the next rows; return the first of them, which may be beyond the last row there is."""
-    return add_to(share, SHARE_NEXT, share[SHARE_SIZE])
+def join(share: Ints) -> int:
+    """Begin; return the number of one's own lane."""
+    return add_to(share, SHARE_JOINED, 1) % share[SHARE_LANES]
+
+
+@inlined
+def lane_after(share: Ints, own: int, k: int) -> int:
+    """Return where the k-th lane after one's own lies in the share."""
+    return LANE_INTS * (1 + (own + k) % share[SHARE_LANES])
+
+
+@inlined
+def is_first(share: Ints, lane: int) -> bool:
+    """Say, once for a lane, that the thread is the first to come to it, and has to call `make_ready`."""
+    return add_to(share, lane + LANE_BEGUN, 1) == 0
+
+
+@inlined
+def make_ready(share: Ints, lane: int) -> None:
+    """Let those in that wait for a lane; they see what the thread has written."""
+    add_to(share, lane + LANE_READY, 1)
+
+
+@inlined
+def wait_for(share: Ints, lane: int) -> None:
+    """Wait, awake, until a lane is ready: less long than it takes to fall asleep."""
+    while add_to(share, lane + LANE_READY, 0) == 0:
+        pass
+
+
+@inlined
+def take(share: Ints, lane: int) -> tuple[int, int]:
+    """Take the next rows of a lane; return the first and the end of them: there are none if it is not beyond.
+
+    If others take some while it is looked up how many are left, this turn is a little longer.
+    """
+    end = share[lane + LANE_END]
+    turn = max(min((end - share[lane + LANE_NEXT]) // PARTS, MOST), FEWEST)
+    first = add_to(share, lane + LANE_NEXT, turn)
+    return first, min(first + turn, end)
 
 
 @inlined
 def put_back(share: Ints, done: int, failed: int) -> None:
     """Note how many of the rows that were taken are done with, and how many of them are not answered."""
-    add_to(share, SHARE_FAILED, failed)
+    if failed:
+        add_to(share, SHARE_FAILED, failed)
     add_to(share, SHARE_DONE, done)

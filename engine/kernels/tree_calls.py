@@ -7,9 +7,9 @@ from typing import TYPE_CHECKING
 from engine.kernels.bsp_poly import sphere_intersects_poly
 from engine.kernels.bsp_walkable import find_walkable
 from engine.kernels.compile import entry, inlined, kernel
-from engine.kernels.order import turn
+from engine.kernels.order import SPHERES, order_lane, turn
 from engine.kernels.rounding import f32
-from engine.kernels.sharing import SHARE_SIZE, put_back, take
+from engine.kernels.sharing import SHARE_LANES, join, lane_after, put_back, take
 from engine.layout import NO_POLYGON, POLYGON_ID, RADIUS, WALK_INTERP, WALKABLE_ALLOWANCE
 
 if TYPE_CHECKING:
@@ -104,12 +104,15 @@ def strike_many(
     share: Ints,
 ) -> None:
     """Strike with spheres that are taken from a share."""
-    first = take(share)
-    while first < len(spheres):
-        last = min(first + share[SHARE_SIZE], len(spheres))
-        _strike_some(wf, wi, s, root, spheres, movements, struck, polygons, order, first, last)
-        put_back(share, last - first, 0)
-        first = take(share)
+    own = join(share)
+    for k in range(share[SHARE_LANES]):
+        lane = lane_after(share, own, k)
+        order_lane(SPHERES, spheres, order, share, lane)
+        first, last = take(share, lane)
+        while first < last:
+            _strike_some(wf, wi, s, root, spheres, movements, struck, polygons, order, first, last)
+            put_back(share, last - first, 0)
+            first, last = take(share, lane)
 
 
 @entry
@@ -129,24 +132,27 @@ def step_down_many(
     share: Ints,
 ) -> None:
     """Step down with spheres that are taken from a share."""
-    first = take(share)
-    while first < len(spheres):
-        last = min(first + share[SHARE_SIZE], len(spheres))
-        _step_some_down(
-            wf,
-            wi,
-            s,
-            root,
-            spheres,
-            movements,
-            ups,
-            allowances,
-            interps,
-            centers,
-            polygons,
-            order,
-            first,
-            last,
-        )
-        put_back(share, last - first, 0)
-        first = take(share)
+    own = join(share)
+    for k in range(share[SHARE_LANES]):
+        lane = lane_after(share, own, k)
+        order_lane(SPHERES, spheres, order, share, lane)
+        first, last = take(share, lane)
+        while first < last:
+            _step_some_down(
+                wf,
+                wi,
+                s,
+                root,
+                spheres,
+                movements,
+                ups,
+                allowances,
+                interps,
+                centers,
+                polygons,
+                order,
+                first,
+                last,
+            )
+            put_back(share, last - first, 0)
+            first, last = take(share, lane)

@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
+from threading import Thread
+from time import sleep
 from typing import TYPE_CHECKING
 
 import numpy as np
 import pytest
-from engine_scenes import CELL
+from engine_scenes import CELL, floor_and_wall, world_of
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
@@ -15,9 +17,12 @@ from engine.body_layout import BODY_DTYPE
 from engine.coherence import AS_ASKED, order_of
 from engine.constants import ACTIVE_TS
 from engine.kernels.order import BODIES, BUCKETS, CALLS, MOVES, SMALLEST, SPHERES, order_all
+from engine.kernels.sharing import LANE_BEGUN, LANE_INTS, LANE_READY, SHARE_DONE, SHARE_REORDERED
+from engine.kernels.tree_calls import strike_many
+from engine.threads import new_share
 
 if TYPE_CHECKING:
-    from engine.kernels.types import Array, Order
+    from engine.kernels.types import Array, Ints, Order
     from engine.query import Rows
 
 COUNT = 2 * int(SMALLEST)
@@ -137,3 +142,50 @@ def test_what_takes_no_time_is_answered_in_turn() -> None:
     bodies["transient_state"][: 3 * COUNT // 4] = 0.0
     assert order_of(MOVES, numbers(rows)) is order_of(BODIES, numbers(bodies)) is AS_ASKED
     assert len(order_of(CALLS, numbers(rows))) == COUNT
+
+
+def strike_all(order: Order, share: Ints) -> None:
+    """Strike a floor with spheres at random places, in one thread."""
+    world, spheres = world_of(floor_and_wall()), spheres_within(60.0)
+    struck, polygons = np.empty((2, COUNT), dtype=np.int32)
+    arrays = (spheres, -np.ones((COUNT, 3)), struck, polygons)
+    strike_many(world.floats, world.ints, world.new_row(), world.tree_of(0), *arrays, order, share)
+
+
+@pytest.mark.parametrize("lanes", [1, 2])
+def test_each_lane_has_an_order_of_its_own(lanes: int) -> None:
+    """Made by who comes to it first: of the rows that lie in it, as if there were no others."""
+    order = np.empty(2 * COUNT + lanes * int(BUCKETS), dtype=np.int32)
+    share = new_share(COUNT, lanes)
+    strike_all(order, share)
+    size = COUNT // lanes
+    for first in range(0, COUNT, size):
+        expected = order_at(SPHERES, spheres_within(60.0)[first : first + size])[0] + first
+        assert order[first : first + size].tolist() == expected.tolist()
+    assert (share[SHARE_REORDERED], share[SHARE_DONE]) == (COUNT, COUNT)
+
+
+def test_a_lane_that_is_ready_is_left_as_it_is() -> None:
+    """Its order is not made a second time."""
+    order = np.zeros(2 * COUNT + int(BUCKETS), dtype=np.int32)
+    order[:COUNT] = np.arange(COUNT)[::-1]
+    share = new_share(COUNT)
+    share[LANE_INTS + LANE_BEGUN] = share[LANE_INTS + LANE_READY] = 1
+    strike_all(order, share)
+    assert order[:COUNT].tolist() == list(range(COUNT))[::-1]
+    assert (share[SHARE_REORDERED], share[SHARE_DONE]) == (0, COUNT)
+
+
+def test_a_lane_that_is_not_ready_is_waited_for() -> None:
+    """No row of it is taken before."""
+    order = np.arange(2 * COUNT + int(BUCKETS), dtype=np.int32)
+    share = new_share(COUNT)
+    share[LANE_INTS + LANE_BEGUN] = 1
+    thread = Thread(target=strike_all, args=(order, share))
+    thread.start()
+    while share[LANE_INTS + LANE_BEGUN] == 1:
+        sleep(0)
+    assert share[SHARE_DONE] == 0
+    share[LANE_INTS + LANE_READY] = 1
+    thread.join()
+    assert share[SHARE_DONE] == COUNT

@@ -27,9 +27,19 @@ from engine import (
     strike_many,
     update_many,
 )
-from engine.kernels.sharing import SHARE_DONE, SHARE_FAILED, SHARE_NEXT, SHARE_SIZE
-from engine.threads import together
+from engine.kernels.sharing import (
+    LANE_END,
+    LANE_NEXT,
+    SHARE_DONE,
+    SHARE_FAILED,
+    SHARE_LANES,
+    join,
+    lane_after,
+    take,
+)
+from engine.threads import new_share, together
 from engine.tracing import recording
+from engine.tracing_interpreter import Interpreter
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
@@ -37,6 +47,7 @@ if TYPE_CHECKING:
     from engine.kernels.types import Ints
 
 LOCK = Lock()
+INTERPRETER = Interpreter({})
 GROUND = ContactPlane((0, 0, 1, 0), CELL)
 MOVES = [
     Move(mover(3), at(0.1 * i, 0.5, R), CELL, start=at(0.1 * i - 0.3, 0, R), seed=Seed(GROUND, GROUND))
@@ -68,18 +79,31 @@ def test_bodies_move_as_with_one_thread(threads: int) -> None:
     assert one.tobytes() == many.tobytes()
 
 
-def taken(share: Ints, count: int) -> Iterator[slice]:
+def taken(share: Ints) -> Iterator[slice]:
     """Take queries from a share as kernels do, until there are none."""
-    while True:
-        with LOCK:
-            first = int(share[SHARE_NEXT])
-            share[SHARE_NEXT] += share[SHARE_SIZE]
-        if first >= count:
-            return
-        some = slice(first, min(first + int(share[SHARE_SIZE]), count))
-        yield some
-        with LOCK:
-            share[SHARE_DONE] += some.stop - some.start
+    with LOCK:
+        own = INTERPRETER.function(join)(share)
+    for k in range(int(share[SHARE_LANES])):
+        lane = INTERPRETER.function(lane_after)(share, own, k)
+        while True:
+            with LOCK:
+                first, last = INTERPRETER.function(take)(share, lane)
+            if first >= last:
+                break
+            yield slice(int(first), int(last))
+            with LOCK:
+                share[SHARE_DONE] += last - first
+
+
+@pytest.mark.parametrize(("count", "threads"), [(0, 1), (1, 1), (10, 3), (64, 64)])
+def test_a_share_is_cut_into_lanes(count: int, threads: int) -> None:
+    """One for each thread; each begins where the one before ends, and they differ by one query at most."""
+    share = new_share(count, threads)
+    lanes = [INTERPRETER.function(lane_after)(share, 0, k) for k in range(threads)]
+    bounds = [(int(share[lane + LANE_NEXT]), int(share[lane + LANE_END])) for lane in lanes]
+    assert [first for first, _ in bounds] == [0, *(end for _, end in bounds[:-1])]
+    assert bounds[-1][1] == count
+    assert {end - first for first, end in bounds} <= {count // threads, count // threads + 1}
 
 
 def test_everything_is_taken_once() -> None:
@@ -89,7 +113,7 @@ def test_everything_is_taken_once() -> None:
             done = np.zeros(count, dtype=int)
 
             def work(share: Ints, done: np.ndarray = done) -> None:
-                for some in taken(share, len(done)):
+                for some in taken(share):
                     done[some] += 1
 
             assert together(work, count, threads) == 0
@@ -113,7 +137,7 @@ def test_what_cannot_be_answered_is_counted() -> None:
     count = 100
 
     def work(share: Ints) -> None:
-        for some in taken(share, count):
+        for some in taken(share):
             with LOCK:
                 share[SHARE_FAILED] += some.stop - some.start
 
@@ -141,7 +165,7 @@ def test_an_error_of_a_helper_is_raised() -> None:
     barrier = Barrier(2)
 
     def work(share: Ints) -> None:
-        first = next(taken(share, 2)).start
+        first = next(taken(share)).start
         barrier.wait(timeout=60)
         if current_thread() is not main_thread():
             raise ArithmeticError(first)
@@ -159,7 +183,7 @@ def test_several_callers_at_a_time() -> None:
         done = np.zeros(size, dtype=int)
 
         def work(share: Ints) -> None:
-            for some in taken(share, size):
+            for some in taken(share):
                 done[some] += 1
 
         together(work, size, 3)
@@ -193,4 +217,4 @@ def test_while_writes_are_recorded_there_is_one_thread() -> None:
     shares: list[Ints] = []
     with recording():
         together(shares.append, 4, 2)
-    assert [share[SHARE_SIZE] for share in shares] == [4]
+    assert [share[SHARE_LANES] for share in shares] == [1]

@@ -7,17 +7,12 @@ from typing import TYPE_CHECKING, Any
 import pytest
 
 import engine
-from engine.kernels import order, program, tree_calls
+from engine.kernels import program, tree_calls
 
 if TYPE_CHECKING:
     from collections.abc import Callable
 
-ENTRIES: list[Callable[..., Any]] = [
-    program.run,
-    tree_calls.step_down_many,
-    tree_calls.strike_many,
-    order.order_all,
-]
+ENTRIES: list[Callable[..., Any]] = [program.run, tree_calls.step_down_many, tree_calls.strike_many]
 
 
 @pytest.mark.parametrize("kernel", ENTRIES)
