@@ -10,6 +10,7 @@ from engine import layout as at
 from engine.body_layout import MAX_RECORDS, STATUS_CROWDED
 from engine.coherence import order_for
 from engine.errors import CrowdedError, QueryError, RecursionBoundError, UndeterminedError
+from engine.given import room
 from engine.kernels import program
 from engine.object_call import ObjectCall, object_rows
 from engine.plan import FULL_PLAN, NO_PLAN, Plan
@@ -62,16 +63,39 @@ def resolve_many(
     threads: int = 1,
     plan: Plan = FULL_PLAN,
     coherent: bool = True,
+    out: Rows | None = None,
 ) -> Rows:
-    """Move many movers, each as if it were alone; results in the same order.
+    """Move, or put down, many movers, each as if it were alone.
 
-    `moves` are Move objects, or rows of `engine.layout.QUERY_DTYPE` made by `engine.query.move_rows`.
-    `threads` share them, with the same results for any number, and where `coherent` those that are near each
-    other are answered one after the other (`engine.coherence`). An `UndeterminedError` is raised after all
-    have been answered, and holds the answers. See `resolve`.
+    Parameters
+    ----------
+    world : World
+    moves : sequence of Move, or records of `engine.layout.QUERY_DTYPE`
+        Rows are made by `engine.query.move_rows`.
+    threads : int
+        How many share them; the results are the same for any number.
+    plan : Plan
+        Which work may be left out; it changes no result.
+    coherent : bool
+        Whether those that are near each other are answered one after the other (`engine.coherence`); the
+        results are the same, and in the same order.
+    out : records of `engine.layout.RESULT_DTYPE`, optional
+        Where to write the results: as many, contiguous. What it saves `engine.given` says.
+
+    Returns
+    -------
+    records of `engine.layout.RESULT_DTYPE`
+        See `resolve`; in the order of `moves`. `out`, if it is given.
+
+    Raises
+    ------
+    QueryError, PoseError
+        If a move cannot be asked about, or `out` cannot take the results.
+    UndeterminedError
+        After all have been answered; it holds the results.
     """
     rows = moves if isinstance(moves, np.ndarray) else move_rows(world, moves)
-    return _run(program.RESOLVE, world, rows, threads, plan, coherent=coherent)
+    return _run(program.RESOLVE, world, rows, threads, plan, coherent=coherent, out=out)
 
 
 def find_collisions(world: World, call: CollisionCall) -> Any:
@@ -97,15 +121,20 @@ def find_collisions(world: World, call: CollisionCall) -> Any:
 
 
 def find_collisions_many(
-    world: World, calls: Sequence[CollisionCall] | Rows, *, threads: int = 1, coherent: bool = True
+    world: World,
+    calls: Sequence[CollisionCall] | Rows,
+    *,
+    threads: int = 1,
+    coherent: bool = True,
+    out: Rows | None = None,
 ) -> Rows:
     """Make many collision calls, each as if it were alone; results in the same order.
 
     `calls` are CollisionCall objects, or rows made by `engine.query.collision_rows`.
-    `threads` and `coherent` change no result: see `resolve_many`. See `find_collisions`.
+    What `threads`, `coherent` and `out` are, `resolve_many` says. See `find_collisions`.
     """
     rows = calls if isinstance(calls, np.ndarray) else collision_rows(world, calls)
-    return _run(program.COLLIDE, world, rows, threads, NO_PLAN, coherent=coherent)
+    return _run(program.COLLIDE, world, rows, threads, NO_PLAN, coherent=coherent, out=out)
 
 
 def find_object_collisions(world: World, call: ObjectCall) -> Any:
@@ -131,23 +160,30 @@ def find_object_collisions(world: World, call: ObjectCall) -> Any:
 
 
 def find_object_collisions_many(
-    world: World, calls: Sequence[ObjectCall] | Rows, *, threads: int = 1, coherent: bool = True
+    world: World,
+    calls: Sequence[ObjectCall] | Rows,
+    *,
+    threads: int = 1,
+    coherent: bool = True,
+    out: Rows | None = None,
 ) -> Rows:
     """Make many calls of obstacles, each as if it were alone; results in the same order.
 
     `calls` are ObjectCall objects, or rows made by `engine.object_call.object_rows`.
-    `threads` and `coherent` change no result: see `resolve_many`. See `find_object_collisions`.
+    What `threads`, `coherent` and `out` are, `resolve_many` says. See `find_object_collisions`.
     """
     rows = calls if isinstance(calls, np.ndarray) else object_rows(world, calls)
-    return _run(program.MEET, world, rows, threads, NO_PLAN, coherent=coherent)
+    return _run(program.MEET, world, rows, threads, NO_PLAN, coherent=coherent, out=out)
 
 
-def _run(job: int, world: World, rows: Rows, threads: int, plan: Plan, *, coherent: bool) -> Rows:
+def _run(
+    job: int, world: World, rows: Rows, threads: int, plan: Plan, *, coherent: bool, out: Rows | None
+) -> Rows:
     if rows.dtype != at.QUERY_DTYPE:
         raise QueryError("rows", "not of engine.layout.QUERY_DTYPE")
     # Of rows that may only be read Numba would compile everything once more.
     queries = np.require(rows, requirements=("C", "W")).view(np.float64).reshape(len(rows), at.QUERY_SIZE)
-    results = np.empty(len(rows), dtype=at.RESULT_DTYPE)
+    results = room(out, at.RESULT_DTYPE, (len(rows),), [queries], "out")
     answers = results.view(np.float64).reshape(len(rows), at.RESULT_SIZE)
     run = runnable(program.run)
     order = order_for(len(rows), threads, coherent=coherent)

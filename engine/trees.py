@@ -9,6 +9,7 @@ import numpy as np
 from engine import layout as at
 from engine.coherence import order_for
 from engine.errors import QueryError
+from engine.given import room, rooms
 from engine.kernels import tree_calls
 from engine.threads import together
 from engine.tracing import runnable
@@ -30,6 +31,7 @@ def strike_many(
     *,
     threads: int = 1,
     coherent: bool = True,
+    out: tuple[npt.NDArray[np.int32], npt.NDArray[np.int32]] | None = None,
 ) -> tuple[npt.NDArray[np.int32], npt.NDArray[np.int32]]:
     """Find for each moving sphere a polygon of a cell that it overlaps and that faces its movement.
 
@@ -47,6 +49,8 @@ def strike_many(
     coherent : bool
         Whether spheres that are near each other are answered one after the other (`engine.coherence`); the
         answers are the same, and in the same order.
+    out : tuple of arrays, optional
+        Where to write the answers: `struck` and `polygons` (`engine.given`).
 
     Returns
     -------
@@ -58,17 +62,21 @@ def strike_many(
     Raises
     ------
     QueryError
-        If the cell has no tree, or an array has another shape.
+        If the cell has no tree, an array has another shape, or `out` cannot take the answers.
 
     Notes
     -----
     retail: BSPNODE::sphere_intersects_poly 0x0053CA30, SP-1...SP-6
     """
+    root = _tree(world, cell)
     given = _numbers(spheres, at.SPHERE_SIZE, "spheres")
     count = len(given)
-    struck, polygons = np.empty((2, count), dtype=np.int32)
-    rows = (given, _vectors(movements, count, "movements"), struck, polygons)
-    _run(tree_calls.strike_many, world, cell, rows, threads, coherent=coherent)
+    asked = given, _vectors(movements, count, "movements")
+    hits, ids = rooms(out, 2, "out")
+    struck = room(hits, np.int32, (count,), asked, "out[0], struck")
+    polygons = room(ids, np.int32, (count,), (*asked, struck), "out[1], polygons")
+    rows = (*asked, struck, polygons)
+    _run(tree_calls.strike_many, world, root, rows, threads, coherent=coherent)
     return struck, polygons
 
 
@@ -83,6 +91,7 @@ def step_down_many(
     *,
     threads: int = 1,
     coherent: bool = True,
+    out: tuple[Array, Array, npt.NDArray[np.int32]] | None = None,
 ) -> tuple[Array, Array, npt.NDArray[np.int32]]:
     """Move each sphere back along its movement on to the polygons of a cell that it can walk on.
 
@@ -106,6 +115,9 @@ def step_down_many(
     coherent : bool
         Whether spheres that are near each other are answered one after the other (`engine.coherence`); the
         answers are the same, and in the same order.
+    out : tuple of arrays, optional
+        Where to write the answers: `centers`, `interps` (these may be the given ones) and `polygons`
+        (`engine.given`).
 
     Returns
     -------
@@ -119,40 +131,41 @@ def step_down_many(
     Raises
     ------
     QueryError
-        If the cell has no tree, or an array has another shape.
+        If the cell has no tree, an array has another shape, or `out` cannot take the answers.
 
     Notes
     -----
     retail: BSPNODE::find_walkable 0x0053CC80, FW-1...FW-5
     """
+    root = _tree(world, cell)
     given = _numbers(spheres, at.SPHERE_SIZE, "spheres")
     count = len(given)
-    left = np.array(_scalars(interps, count, "interps"))
-    centers = np.empty((count, at.VECTOR_SIZE), dtype=np.float64)
-    polygons = np.empty(count, dtype=np.int32)
-    rows = (
+    asked = (
         given,
         _vectors(movements, count, "movements"),
         _vectors(ups, count, "ups"),
         _scalars(allowances, count, "allowances"),
-        left,
-        centers,
-        polygons,
     )
-    _run(tree_calls.step_down_many, world, cell, rows, threads, coherent=coherent)
+    places, rests, ids = rooms(out, 3, "out")
+    left = room(rests, np.float64, (count,), asked, "out[1], interps")
+    left[:] = _scalars(interps, count, "interps")
+    centers = room(places, np.float64, (count, int(at.VECTOR_SIZE)), (*asked, left), "out[0], centers")
+    polygons = room(ids, np.int32, (count,), (*asked, left, centers), "out[2], polygons")
+    rows = (*asked, left, centers, polygons)
+    _run(tree_calls.step_down_many, world, root, rows, threads, coherent=coherent)
     return centers, left, polygons
 
 
 def _run(
     kernel: Callable[..., None],
     world: World,
-    cell: int,
+    root: int,
     rows: Sequence[npt.NDArray[Any]],
     threads: int,
     *,
     coherent: bool,
 ) -> None:
-    run, root = runnable(kernel), _tree(world, cell)
+    run = runnable(kernel)
     order = order_for(len(rows[0]), threads, coherent=coherent)
 
     def work(share: Ints) -> None:
@@ -174,7 +187,7 @@ def _tree(world: World, cell: int) -> int:
 
 def _numbers(values: npt.ArrayLike, width: int, where: str) -> Array:
     """Return rows of numbers without copying what is laid out right."""
-    array = np.ascontiguousarray(values, dtype=np.float64)
+    array = _array(values)
     if array.ndim != 2 or array.shape[1] != width:
         raise QueryError(where, f"shape {array.shape} where ('n', {int(width)}) is needed")
     return array
@@ -188,7 +201,13 @@ def _vectors(values: npt.ArrayLike, count: int, where: str) -> Array:
 
 
 def _scalars(values: npt.ArrayLike, count: int, where: str) -> Array:
-    array = np.ascontiguousarray(values, dtype=np.float64)
+    array = _array(values)
     if array.shape != (count,):
         raise QueryError(where, f"shape {array.shape} where ({count},) is needed")
     return array
+
+
+def _array(values: npt.ArrayLike) -> Array:
+    """Return an array of the one kind that kernels are compiled for: it could also be written to."""
+    array = np.ascontiguousarray(values, dtype=np.float64)
+    return array if array.flags.carray else array.copy()

@@ -2,24 +2,45 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Final
 
+from engine.constants import frozen
+from engine.kernels.ahead import bring_near
 from engine.kernels.bsp_poly import sphere_intersects_poly
 from engine.kernels.bsp_walkable import find_walkable
 from engine.kernels.compile import entry, inlined, kernel
 from engine.kernels.order import SPHERES, order_lane, turn
 from engine.kernels.rounding import f32
 from engine.kernels.sharing import SHARE_LANES, join, lane_after, put_back, take
-from engine.layout import NO_POLYGON, POLYGON_ID, RADIUS, WALK_INTERP, WALKABLE_ALLOWANCE
+from engine.layout import (
+    NO_POLYGON,
+    POLYGON_ID,
+    RADIUS,
+    SPHERE_SIZE,
+    VECTOR_SIZE,
+    WALK_INTERP,
+    WALKABLE_ALLOWANCE,
+)
 
 if TYPE_CHECKING:
     from engine.kernels.types import Array, Ints, Order, Vector
+
+AHEAD: Final = frozen(4)
+"""How many spheres before its turn one is brought near: read out of turn, none lies beside the last."""
 
 
 @inlined
 def _vector(a: Array, i: int) -> Vector:
     """Read one of many vectors, or centres, as float32."""
     return f32(a[i, 0]), f32(a[i, 1]), f32(a[i, 2])
+
+
+@inlined
+def _bring(rows: Array, i: int, size: int) -> None:
+    """Have one of many vectors, or single numbers, brought near: its first number, and its last."""
+    bring_near(rows, size * i, 1)
+    if size > 1:
+        bring_near(rows, size * i + size - 1, 1)
 
 
 @inlined
@@ -47,7 +68,9 @@ def _strike_some(
     retail: what calls BSPNODE::sphere_intersects_poly 0x0053CA30, 03 2
     """
     for k in range(first, last):
-        i = turn(order, k)
+        i, later = turn(order, k), turn(order, min(k + AHEAD, len(spheres) - 1))
+        _bring(spheres, later, SPHERE_SIZE)
+        _bring(movements, later, VECTOR_SIZE)
         x, y, z = _vector(spheres, i)
         mx, my, mz = _vector(movements, i)
         r = f32(spheres[i, RADIUS])
@@ -77,7 +100,13 @@ def _step_some_down(
     retail: what calls BSPNODE::find_walkable 0x0053CC80, 03 5
     """
     for k in range(first, last):
-        i = turn(order, k)
+        i, later = turn(order, k), turn(order, min(k + AHEAD, len(spheres) - 1))
+        _bring(spheres, later, SPHERE_SIZE)
+        _bring(movements, later, VECTOR_SIZE)
+        _bring(ups, later, VECTOR_SIZE)
+        _bring(centers, later, VECTOR_SIZE)
+        _bring(allowances, later, 1)
+        _bring(interps, later, 1)
         x, y, z = _vector(spheres, i)
         r = f32(spheres[i, RADIUS])
         mx, my, mz = _vector(movements, i)
