@@ -15,6 +15,7 @@ from conformance.strategies.worlds.sites import SITES
 from engine import (
     Body,
     Move,
+    Target,
     UndeterminedError,
     body_rows,
     find_collisions_many,
@@ -95,8 +96,10 @@ def call(order: Any = slice(None), **options: Any) -> tuple[Any, ...]:
 
 
 def meet(order: Any = slice(None), **options: Any) -> tuple[Any, ...]:
-    """Call what is in the cell: nothing, in an order."""
-    return (find_object_collisions_many(WORLD, rows_of_walks()[order], **options),)
+    """Call the cell, in an order."""
+    rows = rows_of_walks()
+    rows["target_kind"] = Target.CELL
+    return (find_object_collisions_many(WORLD, rows[order], **options),)
 
 
 def tick(order: Any = slice(None), **options: Any) -> tuple[Any, ...]:

@@ -9,8 +9,11 @@ import pytest
 from engine_scenes import CELL, R, at, floor_and_wall, mover, world_of
 
 from engine import (
+    CollisionCall,
     Move,
+    ObjectCall,
     QueryError,
+    Target,
     find_collisions_many,
     find_object_collisions_many,
     resolve_many,
@@ -20,32 +23,38 @@ from engine import (
 from engine import layout as of
 from engine.given import room
 from engine.kernels import tree_calls
-from engine.query import move_rows
+from engine.object_call import object_rows
+from engine.query import collision_rows, move_rows
 
 if TYPE_CHECKING:
     from collections.abc import Callable
 
+    from engine.query import Rows
+
 WORLD = world_of(floor_and_wall())
 COUNT = 3
-ROWS = move_rows(
-    WORLD, [Move(mover(), at(0.3 * i, 0.0, R), CELL, start=at(0.0, 0.0, R + 0.1)) for i in range(COUNT)]
-)
+MOVES = [Move(mover(), at(0.3 * i, 0.0, R), CELL, start=at(0.0, 0.0, R + 0.1)) for i in range(COUNT)]
+ROWS = move_rows(WORLD, MOVES)
 SPHERES = np.array([[0.0, 0.0, 0.25, R], [0.75, 0.0, 1.0, R], [-3.0, 1.0, 2.0, R]])
 WAYS = np.array([[0, 0, -0.5], [0.25, 0, 0], [0, 0, -1]], dtype=np.float64)
 UPS, ONES = np.tile((0.0, 0.0, 1.0), (COUNT, 1)), np.ones(COUNT)
 RESULT = np.empty(COUNT, dtype=of.RESULT_DTYPE)
 FROZEN = np.empty(COUNT, dtype=of.RESULT_DTYPE)
 FROZEN.flags.writeable = False
-ASKING: list[Callable[..., Any]] = [resolve_many, find_collisions_many, find_object_collisions_many]
+ASKING: list[tuple[Callable[..., Any], Rows]] = [
+    (resolve_many, ROWS),
+    (find_collisions_many, collision_rows(WORLD, [CollisionCall(move) for move in MOVES])),
+    (find_object_collisions_many, object_rows(WORLD, [ObjectCall(move, Target.CELL) for move in MOVES])),
+]
 
 
-@pytest.mark.parametrize("ask", ASKING)
-def test_results_are_written_where_they_are_wanted(ask: Callable[..., Any]) -> None:
+@pytest.mark.parametrize(("ask", "rows"), ASKING)
+def test_results_are_written_where_they_are_wanted(ask: Callable[..., Any], rows: Rows) -> None:
     """Into the given rows, which are returned; over what the last batch has left there."""
     out = np.full(COUNT, np.nan, dtype=of.RESULT_DTYPE)
-    for rows in (ROWS[::-1], ROWS):
-        assert ask(WORLD, rows, out=out) is out
-    assert out.tobytes() == ask(WORLD, ROWS).tobytes()
+    for some in (rows[::-1], rows):
+        assert ask(WORLD, some, out=out) is out
+    assert out.tobytes() == ask(WORLD, rows).tobytes()
 
 
 def test_a_part_of_an_array_takes_results() -> None:
@@ -97,6 +106,13 @@ def test_strikes_are_written_where_they_are_wanted() -> None:
     assert polygons is out[1]
     for given, new in zip(out, strike_many(WORLD, 0, SPHERES, WAYS), strict=True):
         assert given.tolist() == new.tolist()
+
+
+def test_a_part_of_any_array_takes_strikes() -> None:
+    """Where an int32 may lie, also in the middle of eight bytes."""
+    struck, polygons = np.full((2, COUNT), 7, dtype=np.int32)
+    strike_many(WORLD, 0, SPHERES[1:2], WAYS[1:2], out=(struck[1:2], polygons[1:2]))
+    assert (struck.tolist(), polygons.tolist()) == ([7, 1, 7], [7, 1, 7])
 
 
 def test_steps_down_are_written_where_they_are_wanted() -> None:
