@@ -9,7 +9,6 @@ batch spreads, and who meets a stranger in his bucket only loses a little time.
 
 from __future__ import annotations
 
-import math
 from typing import TYPE_CHECKING, Final
 
 from engine.body_layout import B_ORIGIN, B_POSITION, B_TRANSIENT, BODY_SIZE
@@ -71,8 +70,9 @@ FEWEST: Final = frozen(16)
 """Columns of buckets that these lie in at least: who is in a square of 8 metres is near all others anyway."""
 EARLY: Final = frozen(12)
 """How many rows before its bucket is asked for a row is brought near."""
-_FAR: Final = 1e15
-"""Metres: numbers up to this are whole numbers of buckets; what is beyond, or no number, is at 0."""
+_FAR: Final = 2.0**40
+"""Metres, and a multiple of all periods of buckets: added to a number that is nearer it makes it positive, so
+that its whole part is the whole number below. What is farther, or no number, is at 0."""
 _CONTACT_VALID: Final = frozen(Q_COLLISION_INFO - COLLISION_INFO + CONTACT_VALID)
 """Whether a query's mover stands on something."""
 
@@ -85,8 +85,8 @@ def turn(order: Order, k: int) -> int:
 
 @inlined
 def _whole(value: float) -> int:
-    """Return the whole number below a number; 0 for one that is too large for that, and for NaN."""
-    return math.floor(value) if abs(value) < _FAR else 0
+    """Return the whole number below a number, plus `_FAR`; 0 for one that is farther, and for NaN."""
+    return int(value + _FAR) if abs(value) < _FAR else 0
 
 
 @inlined
