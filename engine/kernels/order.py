@@ -68,6 +68,8 @@ SAMPLE: Final = frozen(128)
 """About so many rows are looked at first."""
 FEWEST: Final = frozen(16)
 """Columns of buckets that these lie in at least: who is in a square of 8 metres is near all others anyway."""
+FEWEST_OF_CALLS: Final = frozen(64)
+"""The same for single calls, which gain less than walks and have as large rows: a square of 16 metres."""
 EARLY: Final = frozen(12)
 """How many rows before its bucket is asked for a row is brought near."""
 _FAR: Final = 2.0**40
@@ -159,7 +161,7 @@ def _pays(kind: int, rows: Array, first: int, last: int, buckets: Order) -> bool
         buckets[column] = 1
     for i in range(first, last, step):
         buckets[unsigned(_bucket_of(kind, rows[unsigned(i)]) >> UPWARDS)] = 0
-    return 2 * worth > asked and columns >= FEWEST
+    return 2 * worth > asked and columns >= (FEWEST_OF_CALLS if kind == CALLS else FEWEST)
 
 
 @kernel

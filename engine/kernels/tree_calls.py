@@ -68,7 +68,7 @@ def _strike_some(
     retail: what calls BSPNODE::sphere_intersects_poly 0x0053CA30, 03 2
     """
     for k in range(first, last):
-        i, later = turn(order, k), turn(order, min(k + AHEAD, len(spheres) - 1))
+        i, later = turn(order, k), turn(order, min(k + AHEAD, last - 1))
         _bring(spheres, later, SPHERE_SIZE)
         _bring(movements, later, VECTOR_SIZE)
         x, y, z = _vector(spheres, i)
@@ -100,7 +100,7 @@ def _step_some_down(
     retail: what calls BSPNODE::find_walkable 0x0053CC80, 03 5
     """
     for k in range(first, last):
-        i, later = turn(order, k), turn(order, min(k + AHEAD, len(spheres) - 1))
+        i, later = turn(order, k), turn(order, min(k + AHEAD, last - 1))
         _bring(spheres, later, SPHERE_SIZE)
         _bring(movements, later, VECTOR_SIZE)
         _bring(ups, later, VECTOR_SIZE)

@@ -127,8 +127,11 @@ def test_few_are_answered_as_they_lie() -> None:
 
 def test_who_is_near_everybody_is_answered_in_turn() -> None:
     """All within a room are near each other as they lie, for every kind of rows."""
-    for kind, rows in ((SPHERES, spheres_within(6.0)), (CALLS, numbers(queries_within(6.0)))):
+    for kind, rows in ((SPHERES, spheres_within(6.0)), (MOVES, numbers(queries_within(6.0)))):
         assert order_of(kind, rows) is AS_ASKED
+    for side, turns in ((14.0, 0), (30.0, COUNT)):
+        assert len(order_of(CALLS, numbers(queries_within(side)))) == turns
+    assert len(order_of(MOVES, numbers(queries_within(14.0)))) == COUNT
     assert order_of(BODIES, numbers(bodies_within(6.0))) is AS_ASKED
 
 
