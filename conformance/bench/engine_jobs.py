@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from functools import partial
 from types import MappingProxyType
 from typing import TYPE_CHECKING, Any, Final
@@ -10,10 +11,12 @@ import numpy as np
 
 import engine
 from conformance.bench import ops
+from conformance.bench.kept import Kept
 from conformance.bench.sampling import QUANTUM
 from conformance.bench.settings import LARGE, SMALL
 from conformance.bench.timing import Answer, Job, sample_of
 from conformance.bench.work import batches
+from engine.layout import RESULT_DTYPE
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Mapping, Sequence
@@ -27,7 +30,7 @@ _NOTHING: Final[Mapping[str, Any]] = MappingProxyType({})
 
 
 def engine_maker(op: str, batch: int, threads: int = 1, options: Mapping[str, Any] = _NOTHING) -> Maker:
-    """Return the engine as an implementation of an operation.
+    """Return the engine as an implementation of an operation, with memory of its own for the results.
 
     Parameters
     ----------
@@ -41,7 +44,7 @@ def engine_maker(op: str, batch: int, threads: int = 1, options: Mapping[str, An
         What else the engine's function is told by name.
     """
     function, prepare = _JOBS[op]
-    return partial(prepare, partial(function, threads=threads, **options), batch)
+    return partial(prepare, partial(function, threads=threads, **options), batch, Kept())
 
 
 def in_calls(op: str, batch: int) -> Maker:
@@ -50,58 +53,63 @@ def in_calls(op: str, batch: int) -> Maker:
     return maker if batch == LARGE else sample_of(maker, SMALL)
 
 
-def _calls(function: Callable[..., Any], batch: int, arrays: Sequence[Any]) -> Callable[[], list[Any]]:
-    """Return what calls a function with so many rows of the arrays at a time, till all were given."""
+def _all_of(calls: Sequence[Callable[[], Any]]) -> Callable[[], None]:
+    def run() -> None:
+        for call in calls:
+            call()
+
+    return run
+
+
+def _tree_job(
+    function: Callable[..., Any], batch: int, work: KernelWork, given: Sequence[Any], out: Sequence[Any]
+) -> Job:
+    """Make a job of calls of the cell's tree; all arrays have a row for each query."""
+    ask = partial(function, work.scene.world, work.scene.world.cell_index(work.scene.pose.cell))
     calls = [
-        partial(function, *(array[first:last] for array in arrays))
-        for first, last in batches(len(arrays[0]), batch)
+        partial(ask, *(array[first:last] for array in given), out=tuple(array[first:last] for array in out))
+        for first, last in batches(len(work), batch)
     ]
-    return lambda: [call() for call in calls]
+    return Job(_all_of(calls), lambda _: np.column_stack(out).astype(np.float64), len(work))
 
 
-def _tree_calls(
-    function: Callable[..., Any], batch: int, work: KernelWork, arrays: Sequence[Any]
-) -> Callable[[], list[Any]]:
-    scene = work.scene
-    return _calls(partial(function, scene.world, scene.world.cell_index(scene.pose.cell)), batch, arrays)
+def _strike_job(function: Callable[..., Any], batch: int, kept: Kept, work: KernelWork) -> Job:
+    out = [kept.array(name, (len(work),), np.int32) for name in ("struck", "polygons")]
+    return _tree_job(function, batch, work, (work.spheres, work.movements), out)
 
 
-def _strike_job(function: Callable[..., Any], batch: int, work: KernelWork) -> Job:
-    run = _tree_calls(function, batch, work, (work.spheres, work.movements))
-    return Job(run, kernel_answer, len(work))
-
-
-def _touch_job(function: Callable[..., Any], batch: int, work: KernelWork) -> Job:
+def _touch_job(function: Callable[..., Any], batch: int, kept: Kept, work: KernelWork) -> Job:
     """Make a job of asking which spheres touch: those for which a polygon is found, struck or not."""
-
-    def answer(done: Any) -> Answer:
-        polygons = np.concatenate([part[1] for part in done])
-        return (polygons >= 0).astype(np.float64).reshape(-1, 1)
-
-    run = _tree_calls(function, batch, work, (work.spheres, work.movements))
-    return Job(run, answer, len(work))
+    job = _strike_job(function, batch, kept, work)
+    return replace(job, answer=lambda done: (job.answer(done)[:, 1:] >= 0.0).astype(np.float64))
 
 
-def _step_down_job(function: Callable[..., Any], batch: int, work: KernelWork) -> Job:
-    arrays = (work.spheres, work.movements, work.ups, work.allowances, work.interps)
-    return Job(_tree_calls(function, batch, work, arrays), kernel_answer, len(work))
+def _step_down_job(function: Callable[..., Any], batch: int, kept: Kept, work: KernelWork) -> Job:
+    given = (work.spheres, work.movements, work.ups, work.allowances, work.interps)
+    count = len(work)
+    centers = kept.array("centers", (count, 3), np.float64)
+    interps = kept.array("interps", (count,), np.float64)
+    polygons = kept.array("polygons", (count,), np.int32)
+    return _tree_job(function, batch, work, given, (centers, interps, polygons))
 
 
-def _row_job(function: Callable[..., Any], batch: int, work: RowWork) -> Job:
-    run = _calls(partial(function, work.scene.world), batch, [work.rows])
-    return Job(run, lambda done: moved_answer(np.concatenate(done)), len(work))
+def _row_job(function: Callable[..., Any], batch: int, kept: Kept, work: RowWork) -> Job:
+    results = kept.array("results", (len(work),), RESULT_DTYPE)
+    calls = [
+        partial(function, work.scene.world, work.rows[first:last], out=results[first:last])
+        for first, last in batches(len(work), batch)
+    ]
+    return Job(_all_of(calls), lambda _: moved_answer(results), len(work))
 
 
-def _tick_job(function: Callable[..., Any], batch: int, work: RowWork) -> Job:
-    rows = work.rows.copy()
-    tick = partial(function, work.scene.world)
-    run = _calls(lambda bodies: tick(bodies, QUANTUM, TICKS), batch, [rows])
-    return Job(run, lambda _: body_answer(rows), len(rows), TICKS)
-
-
-def kernel_answer(done: Any) -> Answer:
-    """Return what is compared of calls of a tree: every array that they have returned, side by side."""
-    return np.concatenate([np.column_stack(part) for part in done]).astype(np.float64)
+def _tick_job(function: Callable[..., Any], batch: int, kept: Kept, work: RowWork) -> Job:
+    rows = kept.array("bodies", work.rows.shape, work.rows.dtype)
+    rows[:] = work.rows
+    calls = [
+        partial(function, work.scene.world, rows[first:last], QUANTUM, TICKS)
+        for first, last in batches(len(rows), batch)
+    ]
+    return Job(_all_of(calls), lambda _: body_answer(rows), len(rows), TICKS)
 
 
 def moved_answer(results: Any) -> Answer:

@@ -66,6 +66,14 @@ def test_engine_answers_as_the_oracle(op: str, batch: int) -> None:
 
 
 @pytest.mark.parametrize("op", [*MAKERS, ops.TOUCH])
+def test_results_of_another_round_are_written_over(op: str) -> None:
+    """An implementation keeps the memory of its results; what is told of a round is that round's."""
+    kept, works = engine_maker(op, 7), list(contest().works(op, 1, COUNT))
+    for work in works:
+        demand_equal(work, [answer(kept, work), answer(engine_maker(op, COUNT), work)])
+
+
+@pytest.mark.parametrize("op", [*MAKERS, ops.TOUCH])
 def test_no_query_is_asked_twice(op: str) -> None:
     """Neither within a round nor in the next: what comes again is learnt by heart, and faster then."""
     works = contest().works(op, 1, COUNT)
