@@ -32,7 +32,7 @@ LINE = Ratio("room", "strike", "oracle", 1, 1, COMPARED)
 def tiny(*sections: str) -> Settings:
     """Return the smallest run."""
     sizes = {**SIZES, ops.CONTACT_WALK: 4, ops.FREE_FLIGHT: 4, ops.TICK: 2}
-    return Settings(3, sections, ("room",), 1, 1, sizes, 4, ((2, 1), (3, 2)), 200, None)
+    return Settings(3, sections, ("room",), 1, 1, sizes, 4, ((2, 1), (3, 2)), 200, 1)
 
 
 def run_with(monkeypatch: pytest.MonkeyPatch, measure: Callable[..., None], *arguments: object) -> int:
