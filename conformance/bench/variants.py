@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, field
-from itertools import groupby
 from typing import TYPE_CHECKING, Any, Final
 
 from conformance.bench import ops
@@ -78,13 +77,8 @@ VARIANTS: Final = (
 
 def variants_of(sections: Sequence[str]) -> Iterator[tuple[str, int, list[Variant]]]:
     """Yield operation, batch, and the variants that some sections compare at it: they take turns together."""
-    asked = [(op, v) for v in VARIANTS if v.section in sections for op in v.ops]
-    asked.sort(key=_place)
-    for (_, batch), group in groupby(asked, key=_place):
-        together = list(group)
-        yield together[0][0], batch, [variant for _, variant in together]
-
-
-def _place(asked: tuple[str, Variant]) -> tuple[int, int]:
-    op, variant = asked
-    return ops.ENGINE_OPS.index(op), variant.batch
+    for op in ops.ENGINE_OPS:
+        for batch in (LARGE, CROWD):
+            those = [v for v in VARIANTS if v.section in sections and op in v.ops and v.batch == batch]
+            if those:
+                yield op, batch, those
