@@ -12,7 +12,7 @@ import sys
 import tempfile
 import time
 from contextlib import ExitStack, contextmanager
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING, Final
 
@@ -41,11 +41,6 @@ if TYPE_CHECKING:
 
 _REPLAYING: Final = Path(__file__).with_name("replaying.py")
 _NAME: Final = "answers at hand"
-CLOCKS: Final[Mapping[str, Callable[[], float]]] = {
-    "processor time": time.process_time,
-    "wall time": time.perf_counter,
-}
-"""What is read, in seconds: the suite's own work, its threads included, and what somebody waits for."""
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -81,14 +76,31 @@ def measure_messages(rounds: Sequence[Sequence[Case]], report: Report, say: Call
         say(f"messages: round {number} of {len(rounds)}, {len(cases)} cases")
         times.append(_judged(cases))
     for dialect in DIALECTS:
-        for clock in CLOCKS:
-            ours, theirs = ([one[who, clock] for one in times] for who in (dialect, _NAME))
-            note = f"messages, floats {dialect}; {clock}"
+        for clock in _Times.__slots__:
+            ours, theirs = ([getattr(one[who], clock) for one in times] for who in (dialect, _NAME))
+            note = f"messages, floats {dialect}; {clock} time"
             report.ratios.append(Ratio("cases", "judge", _NAME, WINDOW, 1, comparison(ours, theirs), note))
 
 
-def _judged(cases: Sequence[Case]) -> dict[tuple[str, str], float]:
-    """Return the nanoseconds of each query, by who was asked and by clock."""
+@dataclass(frozen=True, slots=True)
+class _Times:
+    """What a query takes with one who is asked, in nanoseconds.
+
+    Attributes
+    ----------
+    processor : float
+        The suite's work, its threads included: all that a run takes in process but the asking, and the asking
+        of this one. Retail is most of a run, and from time to time it differs by more than all messages.
+    wall : float
+        The whole, as somebody waits for it.
+    """
+
+    processor: float
+    wall: float
+
+
+def _judged(cases: Sequence[Case]) -> dict[str, _Times]:
+    """Return what a query takes, by who was asked."""
     oracle = OracleCandidate()
     outcomes = [[oracle.answer(query) for query in case.queries] for case in cases]
     with ExitStack() as stack:
@@ -103,28 +115,60 @@ def _judged(cases: Sequence[Case]) -> dict[tuple[str, str], float]:
             for turn in range(len(cases)):
                 for place in range(len(sides)):
                     sides[(turn + place) % len(sides)].judge(turn, oracle)
-    queries = sum(len(case.queries) for case in cases)
+    nanoseconds = 1e9 / sum(len(case.queries) for case in cases)
+    others = sides[0].processor - sides[0].asking
     return {
-        (side.name, clock): 1e9 * spent / queries for side in sides for clock, spent in side.spent.items()
+        side.name: _Times(nanoseconds * (others + side.asking), nanoseconds * side.wall) for side in sides
     }
 
 
 @dataclass(slots=True)
 class _Side:
-    """Who answers, the cases that are asked, and the seconds that it took to judge them."""
+    """Who answers, the cases that are asked, and the seconds that it took: all of it, and the asking."""
 
     name: str
     candidate: Candidate
     cases: Sequence[Case]
-    spent: dict[str, float] = field(default_factory=lambda: dict.fromkeys(CLOCKS, 0.0))
+    processor: float = 0.0
+    asking: float = 0.0
+    wall: float = 0.0
 
     def judge(self, number: int, oracle: Candidate) -> None:
-        begin = [now() for now in CLOCKS.values()]
-        verdict = judge(self.cases[number], self.candidate, oracle)
-        for (clock, now), then in zip(CLOCKS.items(), begin, strict=True):
-            self.spent[clock] += now() - then
+        asked = _Clocked(self.candidate)
+        wall, processor, thread = time.perf_counter(), time.process_time(), time.thread_time()
+        verdict = judge(self.cases[number], asked, oracle)
+        thread, processor = time.thread_time() - thread, time.process_time() - processor
+        self.wall += time.perf_counter() - wall
+        self.processor += processor
+        self.asking += asked.seconds + (processor - thread)  # other threads only send and receive
         for failure in verdict.failures:
             raise DisagreementError(f"{failure.query.label}: {failure.summary}")
+
+
+@dataclass(slots=True)
+class _Clocked:
+    """A candidate, and the processor time of the thread that asks it."""
+
+    candidate: Candidate
+    seconds: float = 0.0
+
+    @property
+    def name(self) -> str:
+        return self.candidate.name
+
+    def ask_ahead(self, queries: Sequence[Query]) -> None:
+        begin = time.thread_time()
+        ask_ahead(self.candidate, queries)
+        self.seconds += time.thread_time() - begin
+
+    def answer(self, query: Query) -> Outcome:
+        begin = time.thread_time()
+        outcome = self.candidate.answer(query)
+        self.seconds += time.thread_time() - begin
+        return outcome
+
+    def close(self) -> tuple[str, ...]:
+        return close(self.candidate)
 
 
 def _own_cases(
