@@ -13,7 +13,14 @@ from conformance import exit_codes
 if TYPE_CHECKING:
     from collections.abc import Callable
 
+MOST_WORKERS: Final = 61 if sys.platform == "win32" else 1 << 10
+"""Processes of a pool: Windows waits for 64 things at most, 3 of which Python needs itself."""
 _CHUNK: Final = 1 << 12
+
+
+def one_for_each_core() -> int:
+    """Return how many processes keep this machine busy."""
+    return min(os.cpu_count() or 1, MOST_WORKERS)
 
 
 def end_with_parent() -> None:

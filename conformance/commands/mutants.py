@@ -8,7 +8,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Final
 
 from conformance import exit_codes
-from conformance.commands.options import UsageError
+from conformance.commands.options import UsageError, check_jobs
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -86,6 +86,7 @@ def run(args: argparse.Namespace) -> int:
 
     if args.output is not None and (args.only or args.sample or args.documents):
         raise UsageError("the page is about all mutants: --output goes with no choice of them")
+    check_jobs(args.jobs)
     plans = all_plans(args.documents or DOCUMENTS)
     chosen = _chosen(plans, args)
     if args.list:

@@ -32,6 +32,14 @@ def add_candidate_option(parser: argparse.ArgumentParser, *, default: str) -> No
     )
 
 
+def check_jobs(jobs: int) -> None:
+    """Raise `UsageError` if there cannot be so many processes."""
+    from conformance.workers import MOST_WORKERS
+
+    if not 1 <= jobs <= MOST_WORKERS:
+        raise UsageError(f"--jobs {jobs}: from 1 to {MOST_WORKERS} processes are possible")
+
+
 def candidate_from(args: argparse.Namespace) -> Candidate:
     """Make the candidate that ``--candidate`` names; raises `UsageError` if it cannot be made."""
     from conformance.candidates.registry import (

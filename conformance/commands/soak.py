@@ -8,7 +8,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Final, NamedTuple
 
 from conformance import exit_codes
-from conformance.commands.options import UsageError, add_candidate_option
+from conformance.commands.options import UsageError, add_candidate_option, check_jobs
 
 if TYPE_CHECKING:
     from conformance.soak.campaign import Campaign, Plan
@@ -226,6 +226,7 @@ def _crew(args: argparse.Namespace) -> Crew:
     from conformance.soak.crews import Alone, Processes
 
     if args.scheduler is None:
+        check_jobs(args.jobs or 1)
         return Alone() if args.jobs in {None, 1} else Processes(args.jobs)
     if args.jobs is not None:
         raise UsageError("--jobs is about processes here: how many a cluster has, its workers say")

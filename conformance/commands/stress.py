@@ -2,12 +2,12 @@
 
 from __future__ import annotations
 
-import os
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Final
 
 from conformance import exit_codes
-from conformance.commands.options import UsageError, add_candidate_option, candidate_from
+from conformance.commands.options import UsageError, add_candidate_option, candidate_from, check_jobs
+from conformance.workers import one_for_each_core
 
 if TYPE_CHECKING:
     import argparse
@@ -35,8 +35,6 @@ candidate is also held against retail, bit for bit, and against its error budget
 
 Exit codes: 0 all is within the budget, 1 it is not, 2 usage, 4 nothing was asked.
 """
-MOST_JOBS: Final = 64
-"""Processes at once; each takes some 300 MB, and no run has many more parts that take long."""
 _PIPED_WIDTH: Final = 200
 """Columns of the tables where no terminal says how wide it is."""
 
@@ -56,7 +54,7 @@ def configure(parser: argparse.ArgumentParser) -> None:
     options.add_argument(
         "--jobs",
         type=int,
-        default=os.cpu_count() or 1,
+        default=one_for_each_core(),
         metavar="N",
         help="processes at once (default: one for each core, %(default)s)",
     )
@@ -109,8 +107,7 @@ def _plan(args: argparse.Namespace) -> Plan:
     for name in args.family:
         if name not in FAMILIES:
             raise UsageError(f"no family {name!r}; there are {', '.join(FAMILIES)}")
-    if not 1 <= args.jobs <= MOST_JOBS:
-        raise UsageError(f"--jobs {args.jobs}: from 1 to {MOST_JOBS} processes are possible")
+    check_jobs(args.jobs)
     families = tuple(name for name in FAMILIES if not args.family or name in args.family)
     return Plan(_settings(args), families, Spec(args.candidate, args.read_timeout), args.jobs)
 

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import os
 import time
 from typing import TYPE_CHECKING
 
@@ -12,6 +11,7 @@ from conformance.stress.findings import CANDIDATE, Findings
 from conformance.stress.models import Spec
 from conformance.stress.runner import Plan, run_plan
 from conformance.stress.settings import quick
+from conformance.workers import one_for_each_core
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -30,7 +30,7 @@ def check_stress(
     gate = parties.gate
     begin = time.perf_counter()
     findings = Findings()
-    plan = Plan(quick(), gate.stress, Spec(parties.spec, parties.read_timeout), os.cpu_count() or 1)
+    plan = Plan(quick(), gate.stress, Spec(parties.spec, parties.read_timeout), one_for_each_core())
     run_plan(plan, findings, lambda text: say(f"stress: {text}"))
     seconds = time.perf_counter() - begin
     broken = [f"budget: {text}" for text in broken_bounds(budget, findings, whole=False)]

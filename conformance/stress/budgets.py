@@ -105,8 +105,9 @@ def bit_for_bit(candidate: str) -> Budget:
 
 def find_budget(candidate: str) -> Budget:
     """Return the budget that comes with the suite for a candidate, or `bit_for_bit`."""
-    path = FOLDER / f"{candidate}.yaml"
-    return read_budget(path) if path.is_file() else bit_for_bit(candidate)
+    # Other names are commands and modules: they may hold anything, and be longer than a file's name.
+    path = FOLDER / f"{candidate}.yaml" if candidate.isidentifier() else None
+    return bit_for_bit(candidate) if path is None or not path.is_file() else read_budget(path)
 
 
 def read_budget(path: Path) -> Budget:

@@ -70,6 +70,7 @@ def test_a_run_that_is_ended_keeps_what_it_found(
         (["--only", "polygon.Polygon.make_plan"], "did you mean 'polygon.Polygon.make_plane'?"),
         (["--documents", "99"], "documents are 01 to 10"),
         (["--sample", "5", "--output", "page.md"], "--output goes with no choice"),
+        (["--jobs", "10000"], "--jobs 10000: from 1 to "),
     ],
 )
 def test_a_wrong_command_line(arguments: list[str], message: str, capsys: pytest.CaptureFixture[str]) -> None:

@@ -64,10 +64,11 @@ def test_shipped_budgets_are_about_their_candidate_and_every_family(path: Path) 
     assert all(len(bound.reason) > 20 for bound in budget.bounds)
 
 
-def test_a_candidate_without_a_budget_is_retail_bit_for_bit() -> None:
-    """In every family."""
-    budget = find_budget("bug:cell-origin")
-    assert budget == bit_for_bit("bug:cell-origin")
+@pytest.mark.parametrize("name", ["bug:cell-origin", "cmd:../budgets/engine", "cmd:" + 300 * "x"])
+def test_a_candidate_without_a_budget_is_retail_bit_for_bit(name: str) -> None:
+    """In every family; also one whose name would lead to another file, or to none at all."""
+    budget = find_budget(name)
+    assert budget == bit_for_bit(name)
     assert {(bound.family, bound.quantity, bound.at_most) for bound in budget.bounds} == {
         (family, "differing", 0.0) for family in FAMILIES
     }

@@ -11,6 +11,9 @@ from typing import TYPE_CHECKING
 
 import pytest
 
+from conformance import workers
+from conformance.commands.options import UsageError, check_jobs
+
 if TYPE_CHECKING:
     from collections.abc import Mapping
 
@@ -73,6 +76,19 @@ def test_workers_do_not_outlive_who_has_started_them(tmp_path: Path, environment
         assert [parent.stdout.readline().rstrip() for _ in range(len(names) + 1)] == [*names, "at work"]
         parent.kill()
         assert parent.communicate(timeout=SECONDS) == ("", None)
+
+
+@pytest.mark.parametrize("cores", [None, 1, 10_000])
+def test_there_are_no_more_workers_than_there_can_be(
+    cores: int | None, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """One for each core; who asks for more by himself is told."""
+    monkeypatch.setattr(os, "cpu_count", lambda: cores)
+    jobs = workers.one_for_each_core()
+    assert jobs == min(cores or 1, workers.MOST_WORKERS)
+    check_jobs(jobs)
+    with pytest.raises(UsageError, match=rf"^--jobs 10000: from 1 to {workers.MOST_WORKERS} processes"):
+        check_jobs(10_000)
 
 
 def test_a_worker_ends_with_its_stdin(environment: Mapping[str, str]) -> None:

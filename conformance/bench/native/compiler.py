@@ -100,7 +100,13 @@ def compile_yardstick(compiler: Compiler, folder: Path) -> Path:
 def _run(arguments: list[str], folder: Path) -> None:
     try:
         done = subprocess.run(  # noqa: S603 - the compiler that the user's own environment names
-            arguments, cwd=folder, capture_output=True, text=True, timeout=_SECONDS, check=False
+            arguments,
+            cwd=folder,
+            capture_output=True,
+            encoding="utf-8",
+            errors="replace",  # a compiler speaks the console's language
+            timeout=_SECONDS,
+            check=False,
         )
     except (OSError, subprocess.TimeoutExpired) as error:
         raise NoCompilerError(f"{arguments[0]}: {error}") from error
