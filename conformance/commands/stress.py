@@ -68,6 +68,12 @@ def configure(parser: argparse.ArgumentParser) -> None:
     options.add_argument("--json", type=Path, metavar="FILE", help="also write everything as JSON")
     options.add_argument("--plots", type=Path, metavar="DIR", help="also draw it (extra `bench`)")
     options.add_argument(
+        "--comparisons",
+        type=Path,
+        metavar="FILE",
+        help="ask nothing; write the list of retail's comparisons with their squares as a Markdown page",
+    )
+    options.add_argument(
         "--worst", type=Path, metavar="DIR", help="write the worst query of each sweep as a case"
     )
 
@@ -77,6 +83,8 @@ def run(args: argparse.Namespace) -> int:
     from conformance.console import make_console
     from conformance.stress.findings import Findings
 
+    if args.comparisons is not None:
+        return _list_comparisons(args.comparisons)
     plan, budget = _plan(args), _budget(args)
     _check_plots(args)
     console = make_console()
@@ -90,6 +98,17 @@ def run(args: argparse.Namespace) -> int:
     if findings.failures:
         return exit_codes.FAILURES
     return exit_codes.OK if findings.readings else exit_codes.NOTHING_RAN
+
+
+def _list_comparisons(file: Path) -> int:
+    from conformance.files import write_text
+    from conformance.stress.comparisons.page import page
+
+    try:
+        write_text(file, page())
+    except OSError as error:
+        raise UsageError(f"cannot write {file}: {error}") from error
+    return exit_codes.OK
 
 
 def _plan(args: argparse.Namespace) -> Plan:
@@ -172,13 +191,13 @@ def _show(console: Console, findings: Findings, args: argparse.Namespace) -> Non
 
 
 def _write(args: argparse.Namespace, findings: Findings, plan: Plan, console: Console) -> None:
+    from conformance.files import write_text
     from conformance.stress.plots import write_plots
     from conformance.stress.worst import write_worst
 
     try:
         if args.json is not None:
-            args.json.parent.mkdir(parents=True, exist_ok=True)
-            args.json.write_text(findings.to_json(_facts(args, plan)), encoding="utf-8", newline="\n")
+            write_text(args.json, findings.to_json(_facts(args, plan)))
         if args.worst is not None:
             for path in write_worst(args.worst, findings.worst_of_sweeps()):
                 console.print(f"kept: {path}")

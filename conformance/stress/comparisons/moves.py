@@ -9,7 +9,7 @@ from conformance.scenes.bsp_builder import TreeStyle, build
 from conformance.scenes.polygons import place
 from conformance.scenes.primitives import floor
 from conformance.scenes.solids import box
-from conformance.strategies.human import HUMAN, MOVER
+from conformance.strategies.human import HUMAN, MOVER, RADIUS
 from conformance.stress.comparisons.base import Comparison
 from conformance.stress.moves import CELL, IDENTITY, ON_GROUND, pose
 from conformance.vector_io import query_from_record
@@ -20,6 +20,9 @@ if TYPE_CHECKING:
 
 STEP: Final = 0.5
 """Height of the step, metres."""
+_BALL: Final = ((0.0, 0.0, RADIUS, RADIUS),)
+"""The only sphere of a mover that is stepped down without halves."""
+_HEIGHT_AXES: Final = ("step_down_height (m)", "end x (m)")
 SHARE: Final = 4
 """What the edge of the squares is divided by: a whole move takes a thousand times as long as one call."""
 
@@ -31,7 +34,7 @@ def _step() -> Geometry:
     return build("step", shape, style=TreeStyle.BOTH, kind="stress")
 
 
-def _move(start: Vec3, end: Vec3, height: float, **mover: float) -> Query:
+def _move(start: Vec3, end: Vec3, height: float, **mover: Any) -> Query:
     plane = {"plane": [0.0, 0.0, 1.0, -height], "cell": CELL, "is_water": 0}
     record: dict[str, Any] = {
         "op": "transition",
@@ -58,8 +61,21 @@ def _short(x: float, y: float) -> Query:
     return _move((-2.0, 0.1, 0.0), (x, y, 0.0), 0.0)
 
 
-def _sub_steps(x: float, y: float) -> Query:
-    return _move((-3.0, 0.1, 0.0), (x, y, 0.0), 0.0)
+def _one_sphere(limit: float, x: float) -> Query:
+    return _off_the_block(x, step_down_height=limit, state=0x103, spheres=_BALL)
+
+
+def _two_spheres(limit: float, x: float) -> Query:
+    return _off_the_block(x, step_down_height=limit, state=0x103)
+
+
+def _off_the_block(x: float, **mover: Any) -> Query:
+    return _move((1.3, 0.1, STEP), (x, 0.1, STEP), STEP, **mover)
+
+
+def _stopped(height: float, x: float) -> Query:
+    """Be stopped at the block's edge over a last known plane at a height: near enough it is stood upon."""
+    return _move((0.85, 0.1, STEP), (x, 0.1, STEP), height, step_down_height=1.2, spheres=_BALL)
 
 
 def _is_up(fields: Fields) -> bool:
@@ -74,22 +90,12 @@ def _has_moved(fields: Fields) -> bool:
     return bool(fields["curr"]["origin"][0] > -2.0)
 
 
-def _is_one_step(fields: Fields) -> bool:
-    """Every sub-step over open ground is one contact call, that nothing is in the way of."""
-    return bool(fields["trace"].count("K") == 1)
+def _goes_in_halves(fields: Fields) -> bool:
+    """Two steps down one after the other."""
+    return "D1D" in fields["trace"]
 
 
 MOVES: Final = (
-    Comparison(
-        "one sub-step",
-        "05 calc_num_steps",
-        ("end x (m)", "end y (m)"),
-        _sub_steps,
-        _is_one_step,
-        (-2.9, -2.2),
-        0.25,
-        SHARE,
-    ),
     Comparison(
         "step up at its limit",
         "05 step_up",
@@ -108,6 +114,22 @@ MOVES: Final = (
         _is_down,
         (0.1, 0.8),
         0.4,
+        SHARE,
+    ),
+    Comparison(
+        "step down of one sphere", "05 TI-18", _HEIGHT_AXES, _one_sphere, _is_down, (0.9, 1.0), 0.4, SHARE
+    ),
+    Comparison(
+        "step down in halves", "05 TI-19", _HEIGHT_AXES, _two_spheres, _goes_in_halves, (0.9, 1.0), 0.4, SHARE
+    ),
+    Comparison(
+        "last known plane near enough",
+        "05 VT-5",
+        ("height (m)", "end x (m)"),
+        _stopped,
+        _is_down,
+        (0.49, 0.5),
+        0.45,
         SHARE,
     ),
     Comparison(

@@ -5,7 +5,15 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Final
 
 from conformance.scenes.algebra import dot
-from conformance.stress.comparisons.base import Comparison, ask, says_yes, single, sphere, triangle_plane
+from conformance.stress.comparisons.base import (
+    RADIUS,
+    Comparison,
+    ask,
+    says_yes,
+    single,
+    sphere,
+    triangle_plane,
+)
 from oracle.constants import EPS
 
 if TYPE_CHECKING:
@@ -81,9 +89,7 @@ def _settled(z: float, x: float) -> Query:
 
 def _level(z: float, x: float) -> Query:
     """Rest on the plane but for half of EPS, so that only the movement decides."""
-    nx, ny, nz, d = triangle_plane()
-    height = (0.48 - 0.5 * EPS - d - 0.2 * nx + 0.1 * ny) / nz
-    ball, movement = sphere(0.2, -0.1, height), [x, LEVEL[1], z]
+    ball, movement = sphere(0.2, -0.1, height_over(0.2, -0.1, RADIUS - 0.5 * EPS)), [x, LEVEL[1], z]
     return ask(
         "polygon_adjust_sphere_to_plane", single(), poly=0, sphere=ball, movement=movement, walk_interp=1.0
     )
@@ -96,10 +102,16 @@ def _touching(z: float, x: float) -> Query:
     )
 
 
-def _along() -> float:
-    """Return the z that makes a movement one along the triangle, metres."""
+def along_triangle() -> float:
+    """Return the z that makes a movement over `LEVEL` one along the triangle, metres."""
     nx, ny, nz, _ = triangle_plane()
     return -dot((nx, ny, 0.0), (*LEVEL, 0.0)) / nz
+
+
+def height_over(x: float, y: float, distance: float = 0.0) -> float:
+    """Return the z of a point at a distance from the triangle's plane, metres."""
+    nx, ny, nz, d = triangle_plane()
+    return (distance - d - x * nx - y * ny) / nz
 
 
 def _is_struck(fields: Fields) -> bool:
@@ -162,7 +174,7 @@ POLYGONS: Final = (
         ("movement z (m)", "movement x (m)"),
         _level,
         says_yes,
-        (_along() - 0.1, _along()),
+        (along_triangle() - 0.1, along_triangle()),
         LEVEL[0],
     ),
     Comparison(

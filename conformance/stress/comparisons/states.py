@@ -11,10 +11,16 @@ from conformance.vector_io import query_from_record
 from oracle.constants import EPS, FLOOR_Z, Z_LANDING
 
 if TYPE_CHECKING:
+    from collections.abc import Callable
+
     from conformance.query import Fields, Query
+    from conformance.scenes.model import Quaternion
 
 PLACE: Final = (100.3, 50.7, 12.1)
 """Where a frame is, metres: in the middle of a landblock."""
+TURN: Final = (0.8, 0.4, 0.4, 0.2)
+"""Its rotation."""
+VIEWER: Final = 0x4
 FLOOR: Final = (0.0, 0.0, 1.0, 0.0)
 _XY: Final = ("end x (m)", "end y (m)")
 
@@ -33,6 +39,21 @@ def _equal_frames(x: float, other: float) -> Query:
     return ask("frame_is_equal", a=here, b=there)
 
 
+def _turn(part: int, value: float) -> Quaternion:
+    w, x, y, z = (value if index == part else number for index, number in enumerate(TURN))
+    return w, x, y, z
+
+
+def _equal_rotations(part: int) -> Callable[[float, float], Query]:
+    """Make queries about frames whose rotations differ in one part of the quaternion."""
+
+    def query(value: float, other: float) -> Query:
+        here, there = (pose(_turn(part, number), PLACE) for number in (other, value))
+        return ask("frame_is_equal", a=here, b=there)
+
+    return query
+
+
 def _small(x: float, y: float) -> Query:
     return ask("normalize_check_small", v=[x, y, 5e-5])
 
@@ -47,6 +68,28 @@ def _lifted(z: float, x: float) -> Query:
     return ask(
         "adjust_offset", **_moved(end, mover=ball, seed=_seed(triangle_plane()), offset=[0.1, 0.02, 0.0])
     )
+
+
+def _too_deep(nz: float, x: float) -> Query:
+    """Lie in a plane that is so steep that the way up is longer than the sphere's radius."""
+    ball = {**MOVER, "spheres": [(0.0, 0.0, 0.0, RADIUS)], "state": ON_GROUND}
+    plane = (1.0, 0.0, nz, 0.0)
+    return ask(
+        "adjust_offset", **_moved((x, -0.1, 0.0), mover=ball, seed=_seed(plane), offset=[0.0, 0.1, 0.0])
+    )
+
+
+def _off_a_cliff(x: float, y: float) -> Query:
+    seed = {"last_known": {"plane": [0.6, 0.0, 0.8, 0.0], "cell": CELL, "is_water": 0}}
+    return ask("cliff_slide", **_moved((x, y, -0.1), seed=seed, plane=[-0.6, 0.64, 0.48, 0.0]))
+
+
+def _sub_steps(x: float, y: float) -> Query:
+    return ask("calc_num_steps", **_moved((x, y, 0.1)))
+
+
+def _seen_sub_steps(x: float, y: float) -> Query:
+    return ask("calc_num_steps", **_moved((x, y, 0.0), mover={**MOVER, "spheres": HUMAN, "state": VIEWER}))
 
 
 def _too_short(x: float, y: float) -> Query:
@@ -111,6 +154,23 @@ def _is_lifted(fields: Fields) -> bool:
     return bool(nx * x + ny * y + nz * z + d > RADIUS - 0.5 * EPS)
 
 
+def _is_moved_up(fields: Fields) -> bool:
+    return bool(fields["check_origin"][2] != 0.0)
+
+
+def _turns_round(fields: Fields) -> bool:
+    """Tell a crease's normal that points back against the way from one that was turned round."""
+    return bool(fields["collision_normal"][0] > 0.0)
+
+
+def _is_one_step(fields: Fields) -> bool:
+    return bool(fields["num_steps"] == 1)
+
+
+def _is_no_step(fields: Fields) -> bool:
+    return bool(fields["num_steps"] == 0)
+
+
 def _has_slid(fields: Fields) -> bool:
     return bool(fields["result"] == "SLID")
 
@@ -128,6 +188,18 @@ STATES: Final = (
         _is_equal,
         (100.3, 100.4),
         100.3,
+    ),
+    *(
+        Comparison(
+            f"rotations equal within EPS, {axis}",
+            "04 3",
+            (axis, f"other {axis}"),
+            _equal_rotations(part),
+            _is_equal,
+            (TURN[part], TURN[part] + 0.1),
+            TURN[part],
+        )
+        for part, axis in enumerate(("w", "x", "y", "z"))
     ),
     Comparison("vector too short", "01 VEC", ("x", "y"), _small, _is_small, (1e-6, 1e-3), 1e-4),
     Comparison(
@@ -148,6 +220,18 @@ STATES: Final = (
         (_resting(100.0), _resting(0.75)),
         0.2,
     ),
+    Comparison(
+        "plane too steep to be lifted",
+        "05 AD-7",
+        ("normal z", "centre x (m)"),
+        _too_deep,
+        _is_moved_up,
+        (0.5, 3.0),
+        -0.4,
+    ),
+    Comparison("way along a crease", "05 CS-5", _XY, _off_a_cliff, _turns_round, (-0.3, 0.3), 0.2),
+    Comparison("one sub-step", "05 NS-5", _XY, _sub_steps, _is_one_step, (0.3, 0.6), 0.1),
+    Comparison("camera that does not move", "05 NS-4", _XY, _seen_sub_steps, _is_no_step, (1e-5, 1e-3), 1e-4),
     Comparison("slide too short", "07 6.B", _XY, _too_short, _has_slid, (0.3, 0.0), 0.001),
     Comparison(
         "normal against the contact plane",
