@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import argparse
 import random
+import sys
 from pathlib import Path
 from typing import TYPE_CHECKING, Final
 
@@ -37,7 +38,7 @@ mistake as well.
 Findings are written to the journal one by one. With --resume a run goes on where it was ended; after a
 change of the oracle or of the cases it judges anew, and first asks what noticed a mutant the last time.
 
-Exit codes: 0 the score is reached, 1 it is not, or an entry is wrong, 2 usage, 4 nothing ran.
+Exit codes: 0 the score is reached, 1 it is not, or an entry is wrong, 2 usage, 4 nothing ran, 130 Ctrl-C.
 """
 _JOURNAL: Final = Path(".conformance") / "mutants.jsonl"
 _LEAST_SCORE: Final = 95.0
@@ -154,7 +155,8 @@ def _judged(work: Work, plans: Sequence[Plan]) -> list[Finding]:
         except WorkerLostError as error:
             raise UsageError(f"{error}; {kept}") from error
         except KeyboardInterrupt:
-            raise UsageError(f"ended early; {kept}") from None
+            sys.stderr.write(f"conformance mutants: ended early; {kept}\n")
+            raise
 
 
 def _mistakes(

@@ -33,7 +33,8 @@ Each family is a set of sweeps. At every severity the oracle (retail), the same 
 precision, and the candidate are asked the same queries and held against exact arithmetic (extra `exact`). The
 candidate is also held against retail, bit for bit, and against its error budget. Ctrl-C keeps what there is.
 
-Exit codes: 0 all is within the budget, 1 it is not, 2 usage, 4 nothing was asked.
+Exit codes: 0 all is within the budget, 1 it is not, 2 usage, 4 nothing was asked,
+5 a file cannot be written, 130 Ctrl-C.
 """
 _PIPED_WIDTH: Final = 200
 """Columns of the tables where no terminal says how wide it is."""
@@ -79,7 +80,7 @@ def configure(parser: argparse.ArgumentParser) -> None:
 
 
 def run(args: argparse.Namespace) -> int:
-    """Ask, print, and return the exit code."""
+    """Ask, print, and return the exit code; what cannot be written is an `OSError`."""
     from conformance.console import make_console
     from conformance.stress.findings import Findings
 
@@ -97,6 +98,8 @@ def run(args: argparse.Namespace) -> int:
     _write(args, findings, plan, console)
     if findings.failures:
         return exit_codes.FAILURES
+    if not whole:
+        return exit_codes.BROKEN_OFF
     return exit_codes.OK if findings.readings else exit_codes.NOTHING_RAN
 
 
@@ -104,10 +107,7 @@ def _list_comparisons(file: Path) -> int:
     from conformance.files import write_text
     from conformance.stress.comparisons.page import page
 
-    try:
-        write_text(file, page())
-    except OSError as error:
-        raise UsageError(f"cannot write {file}: {error}") from error
+    write_text(file, page())
     return exit_codes.OK
 
 
@@ -195,17 +195,14 @@ def _write(args: argparse.Namespace, findings: Findings, plan: Plan, console: Co
     from conformance.stress.plots import write_plots
     from conformance.stress.worst import write_worst
 
-    try:
-        if args.json is not None:
-            write_text(args.json, findings.to_json(_facts(args, plan)))
-        if args.worst is not None:
-            for path in write_worst(args.worst, findings.worst_of_sweeps()):
-                console.print(f"kept: {path}")
-        if args.plots is not None:
-            for path in write_plots(findings, plan, args.plots):
-                console.print(f"drawn: {path}")
-    except OSError as error:
-        raise UsageError(f"cannot write: {error}") from error
+    if args.json is not None:
+        write_text(args.json, findings.to_json(_facts(args, plan)))
+    if args.worst is not None:
+        for path in write_worst(args.worst, findings.worst_of_sweeps()):
+            console.print(f"kept: {path}")
+    if args.plots is not None:
+        for path in write_plots(findings, plan, args.plots):
+            console.print(f"drawn: {path}")
 
 
 def _facts(args: argparse.Namespace, plan: Plan) -> dict[str, Any]:

@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Final
 
 import yaml
 
+from conformance.files import write_text
 from conformance.found import found_document
 from conformance.life.layout import lay_out
 from conformance.stress.findings import Worst
@@ -47,11 +48,10 @@ def worst_case(sweep: Sweep, severity: float, quantity: str, value: float, query
 
 def write_worst(folder: Path, found: Iterable[Worst]) -> list[Path]:
     """Write cases into a folder, named by family, sweep and quantity; return their paths."""
-    folder.mkdir(parents=True, exist_ok=True)
     paths = []
     for worst in found:
         path = folder / f"{_slug(f'{worst.family}-{worst.sweep}-{worst.quantity}')}.yaml"
-        path.write_text(worst.document, encoding="utf-8", newline="\n")
+        write_text(path, worst.document)
         paths.append(path)
     return paths
 

@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING
 
 import pytest
 
+from conformance import exit_codes
 from conformance.cli import main
 from conformance.mutation import asking, run
 from conformance.mutation.asking import Question
@@ -60,7 +61,7 @@ def test_a_run_that_is_ended_keeps_what_it_found(
         raise KeyboardInterrupt
 
     monkeypatch.setattr(run, "reaches", stop)
-    assert main([*ONLY, "--journal", journal]) == 2
+    assert main([*ONLY, "--journal", journal]) == exit_codes.BROKEN_OFF
     assert "--resume goes on" in capsys.readouterr().err
 
 

@@ -78,17 +78,37 @@ def test_a_candidate_that_is_not_retail_fails(
 def test_what_is_broken_off_keeps_its_results(
     monkeypatch: pytest.MonkeyPatch, tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
-    """Ctrl-C ends the run; what was found until then is shown and written."""
+    """Ctrl-C ends the run; what was found until then is shown and written, and half a run is not green."""
 
     def found(_plan: Plan, into: Findings) -> None:
         into.readings.append(WITHIN)
         raise KeyboardInterrupt
 
-    assert run_with(monkeypatch, found, "--json", tmp_path / "stress.json") == exit_codes.OK
+    assert run_with(monkeypatch, found, "--json", tmp_path / "stress.json") == exit_codes.BROKEN_OFF
     told = json.loads((tmp_path / "stress.json").read_text(encoding="utf-8"))
     assert len(told["readings"]) == 1
     assert told["notes"] == ["the run was broken off: what follows is what there was until then"]
     assert "broken off" in capsys.readouterr().out
+
+
+def test_what_cannot_be_written_is_told(
+    monkeypatch: pytest.MonkeyPatch, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    """With the code for that, after all that was found has been shown."""
+    taken = tmp_path / "a file"
+    taken.write_text("", encoding="utf-8")
+    within = lambda _plan, into: into.readings.append(WITHIN)  # noqa: E731
+    assert run_with(monkeypatch, within, "--json", taken / "stress.json") == exit_codes.CANNOT_WRITE
+    said = capsys.readouterr()
+    assert "scale" in said.out
+    assert "conformance stress:" in said.err
+
+
+def test_the_list_of_comparisons_is_written(tmp_path: Path) -> None:
+    """Whole, without asking anything."""
+    file = tmp_path / "list.md"
+    assert stress("--comparisons", file) == exit_codes.OK
+    assert file.read_text(encoding="utf-8").startswith("# Every comparison of documents 02 to 05")
 
 
 def test_exit_codes_say_how_it_ended(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> None:
