@@ -50,6 +50,7 @@ def measure(settings: Settings, report: Report, say: Callable[[str], None]) -> N
     """
     rng = np.random.default_rng(settings.seed)
     native = _native(settings, report)
+    report.facts["samples"] = dict(settings.sizes)
     _name_omissions(settings, report)
     if any(section in settings.sections for section in _SCENE_SECTIONS):
         for scene in _scenes(settings, say):

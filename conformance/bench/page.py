@@ -80,6 +80,9 @@ def _made_with(report: Report, command: str) -> str:
     facts += [f"{kind['architecture']}, {kind['system']}", software]
     sizes = report.facts.get("polygons", {})
     facts += [f"{name}: {', '.join(map(str, counts))} polygons" for name, counts in sizes.items()]
+    if "samples" in report.facts:
+        asked = ", ".join(f"{op} {count}" for op, count in report.facts["samples"].items())
+        facts.append(f"queries of a round that are asked one by one in Python: {asked}")
     if "native" in report.facts:
         facts.append(f"yardstick: `{report.facts['native']}`")
     for name, exact in report.facts.get("exact", {}).items():

@@ -46,6 +46,14 @@ def test_every_table_is_written() -> None:
     assert "### Failures" not in text
 
 
+def test_samples_are_told() -> None:
+    """A reader sees of how many queries a mean is."""
+    report = filled()
+    report.facts["samples"] = {"strike": 1600, "tick": 80}
+    told = "- queries of a round that are asked one by one in Python: strike 1600, tick 80"
+    assert told in numbers(report, "conformance bench").splitlines()
+
+
 def test_scenes_stand_side_by_side() -> None:
     """One line for each comparison, sorted by the reference; what was not measured is left blank."""
     report = filled()
