@@ -64,8 +64,10 @@ _BLOCK: Final = frozen(int(BLOCK_EDGE / WIDTH))
 """Buckets along the side of a landblock."""
 SMALLEST: Final = frozen(1000)
 """Rows that are worth sorting: fewer gain less than it takes to count buckets."""
+FEW: Final = frozen(32)
+"""About so many rows are asked whether they are worth it: a batch of free flights is over in no time."""
 SAMPLE: Final = frozen(128)
-"""About so many rows are looked at first."""
+"""About so many rows are asked where they are. Every n-th is, n being odd: many batches alternate."""
 FEWEST: Final = frozen(16)
 """Columns of buckets that these lie in at least: who is in a square of 8 metres is near all others anyway."""
 FEWEST_OF_CALLS: Final = frozen(64)
@@ -145,23 +147,40 @@ def _is_worth_it(kind: int, row: Array) -> bool:
 
 
 @inlined
-def _pays(kind: int, rows: Array, first: int, last: int, buckets: Order) -> bool:
-    """Say, from a few of some rows, whether most are worth it, and not near each other as they are.
+def _are_worth_it(kind: int, rows: Array, first: int, last: int) -> bool:
+    """Say, from a few of some rows, whether most are worth it."""
+    asked, worth = 0, 0
+    for i in range(first, last, (last - first) // FEW | 1):
+        asked += 1
+        worth += _is_worth_it(kind, rows[unsigned(i)])
+    return 2 * worth > asked
+
+
+@inlined
+def _are_apart(kind: int, rows: Array, first: int, last: int, buckets: Order) -> bool:
+    """Say, from a sample of some rows, whether they are not near each other as they lie.
 
     `buckets` are empty, before and afterwards.
     """
-    step = max((last - first) // SAMPLE, 1)
-    asked, worth, columns = 0, 0, 0
+    step = (last - first) // SAMPLE | 1
+    columns = 0
     for i in range(first, last, step):
-        row = rows[unsigned(i)]
-        column = unsigned(_bucket_of(kind, row) >> UPWARDS)
-        asked += 1
-        worth += _is_worth_it(kind, row)
+        column = unsigned(_bucket_of(kind, rows[unsigned(i)]) >> UPWARDS)
         columns += buckets[column] == 0
         buckets[column] = 1
     for i in range(first, last, step):
         buckets[unsigned(_bucket_of(kind, rows[unsigned(i)]) >> UPWARDS)] = 0
-    return 2 * worth > asked and columns >= (FEWEST_OF_CALLS if kind == CALLS else FEWEST)
+    return columns >= (FEWEST_OF_CALLS if kind == CALLS else FEWEST)
+
+
+@inlined
+def _pays(kind: int, rows: Array, first: int, last: int, buckets: Order) -> bool:
+    """Say whether it pays to sort some rows; `buckets` are empty then."""
+    if last - first < SMALLEST or not _are_worth_it(kind, rows, first, last):
+        return False
+    for b in range(BUCKETS):
+        buckets[b] = 0
+    return _are_apart(kind, rows, first, last, buckets)
 
 
 @kernel
@@ -191,9 +210,7 @@ def put_in_order(
     int
         How many rows have been sorted: all of them or none.
     """
-    for b in range(BUCKETS):
-        buckets[b] = 0
-    if last - first < SMALLEST or not _pays(kind, rows, first, last, buckets):
+    if not _pays(kind, rows, first, last, buckets):
         for i in range(first, last):
             order[unsigned(i)] = i
         return 0
