@@ -16,8 +16,10 @@ from typing import TYPE_CHECKING, Any, Final
 import numpy as np
 from numba.core.dispatcher import Dispatcher
 
+from engine.kernels.abreast import flat_planes, lowest, near_planes
 from engine.kernels.ahead import bring_near, bring_nearer
 from engine.kernels.sharing import add_to
+from engine.layout import ABREAST, PLANE_SIZE
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Mapping
@@ -92,6 +94,33 @@ def _ignore(*_arguments: Any) -> None:
     """Do what a hint to the machine does: nothing that could be noticed."""
 
 
+def _along(wf: Any, at: int, x: float, y: float, z: float) -> tuple[Any, Any]:
+    """Return a vector's components along the normals of a block of planes, and the planes' d."""
+    nx, ny, nz, d = wf[at : at + PLANE_SIZE * ABREAST].reshape(PLANE_SIZE, ABREAST)
+    return (ny * y + nz * z) + nx * x, d
+
+
+def _mask(flags: Any) -> int:
+    return sum(1 << k for k, flag in enumerate(flags) if flag)
+
+
+def _near_planes(wf: Any, at: int, count: int, x: float, y: float, z: float, reach: float) -> int:
+    """Do what `engine.kernels.abreast.near_planes` does."""
+    along, d = _along(wf, at, x, y, z)
+    return _mask(~(reach < abs(along + d))[:count])
+
+
+def _flat_planes(wf: Any, at: int, ux: float, uy: float, uz: float, least: float) -> int:
+    """Do what `engine.kernels.abreast.flat_planes` does."""
+    along, _ = _along(wf, at, ux, uy, uz)
+    return _mask(along > least)
+
+
+def _lowest(mask: int) -> int:
+    """Do what `engine.kernels.abreast.lowest` does."""
+    return (mask & -mask).bit_length() - 1
+
+
 def _number(value: Any) -> Any:
     """Return a number of Python as NumPy's, within tuples too."""
     if type(value) is float:
@@ -120,7 +149,14 @@ def _whole(function: Callable[[Any], Any]) -> Callable[[Any], int]:
     return lambda number: function(number) if math.isfinite(number) else _NOT_AN_INTEGER
 
 
-_MACHINE: Final[dict[Any, Callable[..., Any]]] = {add_to: _add_to, bring_near: _ignore, bring_nearer: _ignore}
+_MACHINE: Final[dict[Any, Callable[..., Any]]] = {
+    add_to: _add_to,
+    bring_near: _ignore,
+    bring_nearer: _ignore,
+    near_planes: _near_planes,
+    flat_planes: _flat_planes,
+    lowest: _lowest,
+}
 """Kernels that are made of instructions of the machine, and what stands for them."""
 _MATH: Final = SimpleNamespace(
     nan=np.float64(math.nan),

@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Final
 import numpy as np
 
 from engine import layout as at
+from engine.compiling.leaf_planes import leaf_planes
 from engine.memory import aligned
 
 if TYPE_CHECKING:
@@ -86,6 +87,15 @@ class Storage:
             ints[place] = value
         return floats, ints
 
+    def _with_planes(self, shape: Shape) -> Array:
+        """Append the planes of leaves; return the nodes' floats, in which leaves say where theirs are."""
+        blocks, leaves, begins = leaf_planes(shape)
+        self.align()
+        begin = self.add_floats(blocks)
+        nodes: Array = shape.node_floats.copy()
+        nodes[leaves, at.LEAF_PLANES] = begin + begins
+        return nodes
+
     def _add_shape(self, index: int, shape: Shape, first: int) -> None:
         """Append a shape; its tree gets node numbers from `first` on."""
         polygons = shape.polygon_floats.copy()
@@ -95,7 +105,7 @@ class Storage:
         self.polygons.append(base)
         leaf_lists = self.add_ints(base + shape.polygon_offsets[shape.leaf_polygons])
         self.leaf_lists.append((leaf_lists, len(shape.leaf_polygons)))
-        self._node_floats.append(shape.node_floats.ravel())
+        self._node_floats.append(self._with_planes(shape).ravel())
         self._node_ints.append(_packed(shape.node_ints, first, leaf_lists))
         self._roots[id(shape)] = first
         if shape.cell_planes is None:

@@ -14,12 +14,14 @@ from engine.kernels.indexing import unsigned
 from engine.kernels.polygon import plane_distance
 from engine.layout import (
     LEAF_COUNT_SHIFT,
+    LEAF_PLANES,
     NODE_FLOATS,
     NODE_INTS,
     NODE_LEAF,
     NODE_NEXT,
     NODE_SPHERE,
     SOLID_BIT,
+    WIDE_LEAF,
 )
 
 if TYPE_CHECKING:
@@ -104,6 +106,18 @@ def leaf_polygons(wi: Ints, leaf: int) -> tuple[int, int]:
     """Return where a leaf's list of polygons begins, and its length."""
     at = unsigned(NODE_INTS * leaf)
     return wi[at + NODE_NEXT], wi[at + NODE_LEAF] >> LEAF_COUNT_SHIFT
+
+
+@inlined
+def is_wide(wi: Ints, leaf: int) -> bool:
+    """Say whether a leaf lists `WIDE_LEAF` polygons or more."""
+    return wi[unsigned(NODE_INTS * leaf + NODE_LEAF)] >= WIDE_LEAF << LEAF_COUNT_SHIFT
+
+
+@inlined
+def leaf_planes(wf: Array, leaf: int) -> int:
+    """Return where the planes of a leaf's polygons begin; only in a tree that has a wide leaf."""
+    return int(wf[unsigned(NODE_FLOATS * leaf + LEAF_PLANES)])
 
 
 @inlined

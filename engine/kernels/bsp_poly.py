@@ -12,12 +12,14 @@ from engine.kernels.bsp_node import (
     in_bounds,
     is_leaf,
     is_solid,
+    is_wide,
     leaf_polygons,
     negative,
     positive,
     side_of,
     splitting_distance,
 )
+from engine.kernels.bsp_wide import strike_on, wide_leaf_overlap
 from engine.kernels.compile import entry, inlined, kernel
 from engine.kernels.indexing import unsigned
 from engine.kernels.polygon import polygon_hits_sphere_slow_but_sure, polygon_moved_along
@@ -98,6 +100,9 @@ def sphere_intersects_poly(
     while True:
         nodes += 1
         if is_leaf(wi, node):
+            if is_wide(wi, node):
+                s[NODES_VISITED] += nodes - 1
+                return strike_on(wf, wi, s, node, top, x, y, z, r, mx, my, mz, poly)
             struck, poly = _leaf_strikes(wf, wi, s, node, x, y, z, r, mx, my, mz, poly)
             if struck:
                 break
@@ -120,6 +125,8 @@ def _leaf_overlap(wf: Array, wi: Ints, s: Array, leaf: int, x: float, y: float, 
     """
     if not in_bounds(wf, leaf, x, y, z, r):
         return NO_POLYGON
+    if is_wide(wi, leaf):
+        return wide_leaf_overlap(wf, wi, s, leaf, x, y, z, r)
     first, count = leaf_polygons(wi, leaf)
     for i in range(first, first + count):
         p = wi[unsigned(i)]

@@ -5,7 +5,8 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from engine.constants import EPS
-from engine.kernels.bsp_node import descend, in_bounds, is_leaf, leaf_polygons
+from engine.kernels.bsp_node import descend, in_bounds, is_leaf, is_wide, leaf_polygons
+from engine.kernels.bsp_wide import find_walkable_on
 from engine.kernels.compile import entry, inlined
 from engine.kernels.indexing import unsigned
 from engine.kernels.polygon import polygon_walkable_hits_sphere
@@ -96,6 +97,9 @@ def find_walkable(
     while True:
         nodes += 1
         if is_leaf(wi, node):
+            if is_wide(wi, node):
+                s[NODES_VISITED] += nodes - 1
+                return find_walkable_on(wf, wi, s, node, top, x, y, z, r, mx, my, mz, ux, uy, uz, poly)
             poly, x, y, z = _leaf_find_walkable(wf, wi, s, node, x, y, z, r, mx, my, mz, ux, uy, uz, poly)
         elif in_bounds(wf, node, x, y, z, r):
             node, top = descend(wf, wi, s, node, x, y, z, reach, top)

@@ -11,9 +11,9 @@ from engine.layout.rows import PLANE_SIZE, POSITION_SIZE, SPHERE_SIZE, Row
 # --- the world's arrays ----------------------------------------------------------------------------
 # floats: node k at NODE_FLOATS * k (splitting plane, bounding sphere), then polygon, plane, cell, part,
 # object and shape records. ints: the header below in the place of the first nodes, node k at
-# NODE_INTS * k, then records and lists. A leaf keeps no plane; a polygon is named by the offset of its
-# record. A node's floats are a cache line, and the integers of a node and its positive child, which is the
-# next, are in one, too.
+# NODE_INTS * k, then records and lists. A leaf keeps no plane, but where those of its polygons are if a leaf
+# of its tree is wide; a polygon is named by the offset of its record. A node's floats are a cache line, and
+# the integers of a node and its positive child, which is the next, are in one, too.
 NODE_FLOATS: Final = frozen(8)
 NODE_SPHERE: Final = frozen(4)
 NODE_INTS: Final = frozen(2)
@@ -24,6 +24,13 @@ NODE_LEAF: Final = frozen(1)
 LEAF_BIT: Final = frozen(1)
 SOLID_BIT: Final = frozen(2)
 LEAF_COUNT_SHIFT: Final = frozen(2)
+WIDE_LEAF: Final = frozen(24)
+"""How many polygons a wide leaf lists at least: walks go on in `engine.kernels.bsp_wide` there."""
+LEAF_PLANES: Final = frozen(0)
+"""Of a leaf's floats, in a tree that has a wide one: where in the world's floats the planes of its polygons
+begin, in blocks of `ABREAST`."""
+ABREAST: Final = frozen(8)
+"""Planes in a block: first all x components, then y, z and d."""
 
 # --- the nodes of a shape, before they are part of a world -------------------------------------------
 SHAPE_NODE_INTS: Final = frozen(4)
