@@ -9,15 +9,19 @@ internal to it, so that what a call passes and doesn't need is dropped.
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, Final
 
 from numba.core.codegen import JITCodeLibrary
-from numba.core.compiler import Compiler
+from numba.core.compiler import Compiler, Flags
 from numba.core.compiler_machinery import LoweringPass, register_pass
-from numba.core.typed_passes import AnnotateTypes
+from numba.core.typed_passes import AnnotateTypes, NopythonRewrites
+from numba.core.untyped_passes import InlineClosureLikes
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
+
+_UNNEEDED: Final = (InlineClosureLikes, NopythonRewrites)
+"""Passes that find nothing to do: kernels define no functions, and compute with numbers, not with arrays."""
 
 
 class _NoEnvironment:
@@ -96,12 +100,35 @@ class _OwnLibrary(LoweringPass):
         return True
 
 
+class KernelFlags(Flags):
+    """Numba's options of a compilation, of which only those that are set are compared.
+
+    Types are looked up by them some hundred thousand times; to compare the defaults of all others as well
+    takes a tenth of the compilation.
+    """
+
+    __slots__ = ()
+    _HASH: Final = hash(Flags())
+
+    def __eq__(self, other: object) -> bool:
+        return self._values == other._values if isinstance(other, KernelFlags) else super().__eq__(other)
+
+    def __hash__(self) -> int:
+        return self._HASH
+
+
 class KernelCompiler(Compiler):
     """Numba's compiler, with these libraries."""
 
+    def __init__(
+        self, typing: Any, target: Any, library: Any, args: Any, result: Any, flags: Any, local: Any
+    ) -> None:
+        super().__init__(typing, target, library, args, result, KernelFlags(flags), local)
+
     def define_pipelines(self) -> list[Any]:
-        """Choose the library before code is generated."""
+        """Choose the library before code is generated; leave out what kernels have no need of."""
         (pipeline,) = super().define_pipelines()
+        pipeline.passes = [step for step in pipeline.passes if step[0] not in _UNNEEDED]
         pipeline.add_pass_after(_OwnLibrary, AnnotateTypes)
         pipeline.finalize()
         return [pipeline]

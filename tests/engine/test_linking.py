@@ -2,16 +2,24 @@
 
 from __future__ import annotations
 
+import gc
+from importlib import import_module
+from inspect import iscode
+from pkgutil import iter_modules
 from typing import TYPE_CHECKING, Any
 
 import pytest
 from numba.core.caching import NullCache
+from numba.core.compiler import Flags
+from numba.core.errors import TypingError
 
-from engine.kernels.compile import Entry, entry, inlined, kernel
-from engine.kernels.linking import EntryLibrary, KernelLibrary
+from engine import kernels
+from engine.kernels.compile import Entry, Kernel, entry, inlined, kernel
+from engine.kernels.linking import EntryLibrary, KernelFlags, KernelLibrary
 
 if TYPE_CHECKING:
-    from collections.abc import Callable
+    from collections.abc import Callable, Iterator
+    from types import ModuleType
 
 
 @kernel
@@ -34,6 +42,12 @@ def quarter(x: float) -> float:
 def sixteenth(x: float) -> float:
     """Divide by sixteen."""
     return quarter(quarter(x))
+
+
+def engine_kernels() -> Iterator[ModuleType]:
+    """Yield all modules of kernels."""
+    for found in iter_modules(kernels.__path__):
+        yield import_module(f"{kernels.__name__}.{found.name}")
 
 
 def only_library(dispatcher: Any) -> Any:
@@ -78,3 +92,51 @@ def test_python_cannot_call_a_kernel() -> None:
     sixteenth(1.0)
     with pytest.raises(TypeError, match="_halve is called by kernels only"):
         _halve(1.0)
+
+
+def test_options_are_equal_if_what_is_set_is() -> None:
+    """Numba finds what it has compiled by them; a copy is of the same kind."""
+    given = Flags()
+    given.forceinline = True
+    ours = KernelFlags(given)
+    assert ours == KernelFlags(given) == ours.copy()
+    assert ours == given
+    assert hash(ours) == hash(given)
+    assert ours != KernelFlags(Flags())
+    assert isinstance(ours.copy(), KernelFlags)
+
+
+def test_a_kernel_is_compiled_once_for_its_types() -> None:
+    """Each call of it asks for that."""
+    assert quarter(4.0) == 1.0
+    (types,) = _halve.overloads  # type: ignore[attr-defined]
+    compiled = _halve.overloads[types]  # type: ignore[attr-defined]
+    assert _halve.compile(types) == compiled.entry_point  # type: ignore[attr-defined]
+    assert only_library(_halve) is compiled.library
+
+
+@pytest.mark.parametrize("was_on", [True, False])
+def test_a_compilation_leaves_the_collector_as_it_was(was_on: bool) -> None:
+    """Also one that fails."""
+
+    @entry
+    def wrong(x: float) -> float:
+        return x + "1"  # type: ignore[operator, no-any-return]
+
+    (gc.enable if was_on else gc.disable)()
+    try:
+        with pytest.raises(TypingError):
+            wrong(1.0)
+        assert gc.isenabled() == was_on
+    finally:
+        gc.enable()
+
+
+def test_no_kernel_defines_a_function() -> None:
+    """What would compile one that is defined in a kernel is left out."""
+    kernels = [
+        thing for module in engine_kernels() for thing in vars(module).values() if isinstance(thing, Kernel)
+    ]
+    assert len(kernels) > 300
+    for one in kernels:
+        assert not any(iscode(constant) for constant in one.py_func.__code__.co_consts), one
