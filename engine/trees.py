@@ -2,11 +2,12 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, Final
 
 import numpy as np
 
 from engine import layout as at
+from engine.checks import LARGEST_INDEX, whole
 from engine.coherence import order_for
 from engine.errors import QueryError
 from engine.given import room, rooms
@@ -21,6 +22,9 @@ if TYPE_CHECKING:
 
     from engine.kernels.types import Array, Ints
     from engine.world import World
+
+_WHOLE: Final = whole(-LARGEST_INDEX, LARGEST_INDEX)
+_LARGEST: Final = float(np.finfo(np.float32).max)
 
 
 def strike_many(
@@ -62,7 +66,8 @@ def strike_many(
     Raises
     ------
     QueryError
-        If the cell has no tree, an array has another shape, or `out` cannot take the answers.
+        If the cell has no tree, an array another shape or numbers that are no finite float32, or `out` cannot
+        take the answers.
 
     Notes
     -----
@@ -131,7 +136,8 @@ def step_down_many(
     Raises
     ------
     QueryError
-        If the cell has no tree, an array has another shape, or `out` cannot take the answers.
+        If the cell has no tree, an array another shape or numbers that are no finite float32, or `out` cannot
+        take the answers.
 
     Notes
     -----
@@ -177,6 +183,7 @@ def _run(
 
 
 def _tree(world: World, cell: int) -> int:
+    _WHOLE(cell, "cell", QueryError)
     if not 0 <= cell < len(world.cell_ids):
         raise QueryError("cell", f"{cell} does not exist ({len(world.cell_ids)} cells)")
     root = world.tree_of(cell)
@@ -187,7 +194,7 @@ def _tree(world: World, cell: int) -> int:
 
 def _numbers(values: npt.ArrayLike, width: int, where: str) -> Array:
     """Return rows of numbers without copying what is laid out right."""
-    array = _array(values)
+    array = _array(values, where)
     if array.ndim != 2 or array.shape[1] != width:
         raise QueryError(where, f"shape {array.shape} where ('n', {int(width)}) is needed")
     return array
@@ -201,13 +208,22 @@ def _vectors(values: npt.ArrayLike, count: int, where: str) -> Array:
 
 
 def _scalars(values: npt.ArrayLike, count: int, where: str) -> Array:
-    array = _array(values)
+    array = _array(values, where)
     if array.shape != (count,):
         raise QueryError(where, f"shape {array.shape} where ({count},) is needed")
     return array
 
 
-def _array(values: npt.ArrayLike) -> Array:
-    """Return an array of the one kind that kernels are compiled for: it could also be written to."""
-    array = np.ascontiguousarray(values, dtype=np.float64)
+def _array(values: npt.ArrayLike, where: str) -> Array:
+    """Return an array of the one kind that kernels are compiled for: it could also be written to.
+
+    Its numbers are rounded to float32 by the kernels, which takes each as it is: so all of them are looked at
+    here, by their least and their greatest, which are NaN if any is.
+    """
+    try:
+        array = np.ascontiguousarray(values, dtype=np.float64)
+    except (TypeError, ValueError) as error:
+        raise QueryError(where, f"not an array of numbers ({error})") from error
+    if array.size and not (array.min() >= -_LARGEST and array.max() <= _LARGEST):
+        raise QueryError(where, "not all of them are finite float32s")
     return array if array.flags.carray else array.copy()

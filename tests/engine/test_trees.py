@@ -74,15 +74,20 @@ def test_threads_change_nothing(threads: int) -> None:
         assert one.tobytes() == many.tobytes()
 
 
-WRONG: list[tuple[int, Any, Any, str]] = [
+WRONG: list[tuple[Any, Any, Any, str]] = [
     (1, SPHERES, WAYS, "cell: 1 does not exist"),
     (0, SPHERES[:, :3], WAYS, "spheres: shape"),
     (0, SPHERES, WAYS[:3], "movements: 3 of them for 4 spheres"),
+    ("a", SPHERES, WAYS, "cell: 'a' where a whole number is needed"),
+    (0, "many", WAYS, "spheres: not an array of numbers"),
+    (0, np.full((4, 4), np.nan), WAYS, "spheres: not all of them are finite"),
+    (0, SPHERES, np.full((4, 3), 1e39), "movements: not all of them are finite"),
+    (0, SPHERES, np.full((4, 3), -np.inf), "movements: not all of them are finite"),
 ]
 
 
 @pytest.mark.parametrize(("cell", "spheres", "ways", "message"), WRONG)
-def test_what_does_not_fit_is_refused(cell: int, spheres: Any, ways: Any, message: str) -> None:
+def test_what_does_not_fit_is_refused(cell: Any, spheres: Any, ways: Any, message: str) -> None:
     """Naming it."""
     with pytest.raises(QueryError, match=message.replace("(", r"\(")):
         strike_many(world_of(floor_and_wall()), cell, spheres, ways)

@@ -169,10 +169,7 @@ STATES: Final[Entries] = {
         )
     },
     "vector.Vector3.differs": {
-        f"abs(self.{axis} - other.{axis}) > EPS": Reason(
-            Kind.ELSEWHERE, "decides in ticks whether a new velocity is taken (06)"
-        )
-        for axis in "xyz"
+        f"abs(self.{axis} - other.{axis}) > EPS": f"velocities equal within EPS, {axis}" for axis in "xyz"
     },
 }
 """Document 04."""
@@ -188,7 +185,9 @@ TRANSITIONS: Final[Entries] = {
     },
     "transition_path.find_transitional_position": {
         "i == num_steps - 1": _whole("sub-steps are counted"),
-        "length > EPS": _before("of a camera's way that is shorter there are no sub-steps (NS-4)"),
+        "length > EPS": _before(
+            "of a camera's shorter way there are no sub-steps (NS-4): the same sum, in another order"
+        ),
         "squared_length(sp.global_offset) < EPS2": "move too short",
     },
     "transition_path.calc_num_steps": {
@@ -200,7 +199,9 @@ TRANSITIONS: Final[Entries] = {
     },
     "transition_path.adjust_offset": {
         "o.z * s.z + o.y * s.y + o.x * s.x < 0.0": "against the sliding normal",
-        "p <= 0.0": _alike("a way along the plane is in it already, whichever way it is put there"),
+        "p <= 0.0": _alike(
+            "a way along the plane stays as it is, whichever way it is put there, but for its last bit"
+        ),
         "distance < radius - EPS": "deep enough to be lifted",
         "radius > abs(h)": "plane too steep to be lifted",
     },
@@ -212,19 +213,18 @@ TRANSITIONS: Final[Entries] = {
         "radius < SMALL_RADIUS": "rings of the thin",
         "radius < RING_RADIUS": _alike("a smaller radius becomes the limit itself"),
         "q <= 1.0": "rings of a giant",
-        "squared_length(sp.global_offset) >= EPS2": _before(
-            "rings are a tenth of a metre apart and more (PP-4)"
-        ),
+        "squared_length(sp.global_offset) >= EPS2": "rings of a mote",
     },
     "transition_step.step_down": {"ci.contact_plane.N.z >= z": "ground too steep to step down to"},
     "transition_step.check_walkable": {
-        "h > radius + radius": _alike(
-            "a sphere at a rim reaches the polygon that carries it from either depth"
-        ),
-        "h > radius + radius #2": _alike("the same, by half of the depth"),
+        "h > radius + radius": "probe of one sphere",
+        "h > radius + radius #2": "probe of two spheres",
     },
     "transition_step.edge_slide": {
-        "ci.contact_plane.N.z < z": _before("SD-4 has compared the same normal with the same limit")
+        "ci.contact_plane.N.z < z": _before(
+            "SD-4 has compared the same normal with the same limit,"
+            " near which it refuses no ground but for other reasons"
+        )
     },
     "transition_step.cliff_slide": {"k <= 0.0": "way along a crease"},
     "transition_validate.validate_transition": {

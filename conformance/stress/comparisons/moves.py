@@ -15,6 +15,8 @@ from conformance.stress.moves import CELL, IDENTITY, ON_GROUND, pose
 from conformance.vector_io import query_from_record
 
 if TYPE_CHECKING:
+    from collections.abc import Sequence
+
     from conformance.query import Fields, Query
     from conformance.scenes.model import Geometry, Vec3
 
@@ -22,6 +24,7 @@ STEP: Final = 0.5
 """Height of the step, metres."""
 _BALL: Final = ((0.0, 0.0, RADIUS, RADIUS),)
 """The only sphere of a mover that is stepped down without halves."""
+_PROBE_AXES: Final = ("step_down_height (m)", "end y (m)")
 _HEIGHT_AXES: Final = ("step_down_height (m)", "end x (m)")
 SHARE: Final = 4
 """What the edge of the squares is divided by: a whole move takes a thousand times as long as one call."""
@@ -32,6 +35,40 @@ def _step() -> Geometry:
     """Make a floor with a block that is one step high."""
     shape = floor(size=(8.0, 8.0)) + place(box(size=(2.0, 4.0, STEP))[1:], (2.0, 0.0, 0.0), 0.0)
     return build("step", shape, style=TreeStyle.BOTH, kind="stress")
+
+
+@cache
+def _ledge() -> Geometry:
+    """Make a floor with a larger one below it, deeper than a sphere's radius and not as deep as two."""
+    shape = floor(size=(4.0, 4.0)) + place(floor(size=(10.0, 10.0)), (0.0, 0.0, -0.75), 0.0)
+    return build("ledge", shape, style=TreeStyle.BOTH, kind="stress")
+
+
+def _probe(limit: float, y: float, spheres: Sequence[Sequence[float]]) -> Query:
+    """Go out over the rim of a floor: what is below is felt for, by the step's height or by less."""
+    geometry = _ledge()
+    record: dict[str, Any] = {
+        "op": "transition",
+        "cells": [{"id": CELL, "pose": pose(IDENTITY, (0.0, 0.0, 0.0)), "geometry": geometry.name}],
+        "mover": {**MOVER, "spheres": spheres, "state": 0x203, "step_down_height": limit},
+        "from": pose(IDENTITY, (1.99, -0.2, 0.0)),
+        "to": pose(IDENTITY, (2.38, y, 0.0)),
+        "begin_cell": CELL,
+        "seed": {"contact": {"plane": [0.0, 0.0, 1.0, 0.0], "cell": CELL, "is_water": 0}},
+    }
+    return query_from_record(record, {geometry.name: geometry})
+
+
+def _probe_of_one(limit: float, y: float) -> Query:
+    return _probe(limit, y, _BALL)
+
+
+def _probe_of_two(limit: float, y: float) -> Query:
+    return _probe(limit, y, HUMAN)
+
+
+def _goes_out(fields: Fields) -> bool:
+    return bool(fields["curr"]["origin"][0] > 2.3)
 
 
 def _move(start: Vec3, end: Vec3, height: float, **mover: Any) -> Query:
@@ -131,6 +168,12 @@ MOVES: Final = (
         (0.49, 0.5),
         0.45,
         SHARE,
+    ),
+    Comparison(
+        "probe of one sphere", "05 WK-5", _PROBE_AXES, _probe_of_one, _goes_out, (0.9, 1.0), -0.24, SHARE
+    ),
+    Comparison(
+        "probe of two spheres", "05 WK-5", _PROBE_AXES, _probe_of_two, _goes_out, (0.9, 1.0), -0.24, SHARE
     ),
     Comparison(
         "move too short", "05 FT-9", ("end x (m)", "end y (m)"), _short, _has_moved, (-2.0, -1.9), 0.1, SHARE

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from functools import cache
 from typing import TYPE_CHECKING, Any, Final
 
@@ -22,6 +23,8 @@ SHARE: Final = 4
 WALL: Final = -3.15
 """x of the middle of a block that is 6 m wide: its near side is 0.15 m from the origin; metres."""
 GIANT_WALL: Final = -6.5
+MOTE_WALL: Final = -2.9999
+"""The same for rings a fifth of a millimetre apart: the origin is in the block."""
 STATIC_WITH_BSP: Final = 0x10001
 _RADIUS_AXES: Final = ("radius (m)", "x (m)")
 _HEIGHT_AXES: Final = ("step_down_height (m)", "x (m)")
@@ -63,6 +66,10 @@ def _thin(radius: float, x: float) -> Query:
     return _beside(radius, x, WALL)
 
 
+def _mote(radius: float, x: float) -> Query:
+    return _beside(radius, x, MOTE_WALL)
+
+
 def _giant(radius: float, x: float) -> Query:
     return _beside(radius, x, GIANT_WALL)
 
@@ -90,6 +97,11 @@ def _is_off_far(fields: Fields) -> bool:
     return bool(fields["curr"]["origin"][0] > 0.1)
 
 
+def _is_off_by_two(fields: Fields) -> bool:
+    """Tell a place on the second ring of a mote from one on the first, which is not farther off than EPS."""
+    return bool(fields["result"]) and math.hypot(*fields["curr"]["origin"]) > 3e-4
+
+
 def _is_put(fields: Fields) -> bool:
     return bool(fields["result"])
 
@@ -103,5 +115,8 @@ PLACEMENTS: Final = (
     ),
     Comparison("rings of the thin", "05 PP-2", _RADIUS_AXES, _thin, _is_off_far, (0.1, 0.2), -0.1, SHARE),
     Comparison("rings of a giant", "05 PP-3", _RADIUS_AXES, _giant, _is_put, (3.9, 4.1), 0.1, SHARE),
+    Comparison(
+        "rings of a mote", "05 PP-5", _RADIUS_AXES, _mote, _is_off_by_two, (1.99e-4, 2.01e-4), 0.0, SHARE
+    ),
 )
 """In the order of the document; their squares are smaller."""

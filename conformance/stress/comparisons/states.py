@@ -21,6 +21,8 @@ PLACE: Final = (100.3, 50.7, 12.1)
 TURN: Final = (0.8, 0.4, 0.4, 0.2)
 """Its rotation."""
 VIEWER: Final = 0x4
+OWN: Final = 1.5
+"""A body's velocity along an axis, m/s."""
 FLOOR: Final = (0.0, 0.0, 1.0, 0.0)
 _XY: Final = ("end x (m)", "end y (m)")
 
@@ -50,6 +52,16 @@ def _equal_rotations(part: int) -> Callable[[float, float], Query]:
     def query(value: float, other: float) -> Query:
         here, there = (pose(_turn(part, number), PLACE) for number in (other, value))
         return ask("frame_is_equal", a=here, b=there)
+
+    return query
+
+
+def _other_velocity(axis: int) -> Callable[[float, float], Query]:
+    """Make queries about a body that is given a velocity which differs from its own along one axis."""
+
+    def query(value: float, own: float) -> Query:
+        old, new = ([0.3 if index != axis else number for index in range(3)] for number in (own, value))
+        return ask("set_velocity", body={"velocity": old}, v=new, update_time=3.0, cur_time=7.0)
 
     return query
 
@@ -139,6 +151,10 @@ def _is_equal(fields: Fields) -> bool:
     return bool(fields["r"])
 
 
+def _is_kept(fields: Fields) -> bool:
+    return not fields["jumped"]
+
+
 def _is_small(fields: Fields) -> bool:
     return bool(fields["small"])
 
@@ -200,6 +216,18 @@ STATES: Final = (
             TURN[part],
         )
         for part, axis in enumerate(("w", "x", "y", "z"))
+    ),
+    *(
+        Comparison(
+            f"velocities equal within EPS, {name}",
+            "04 3",
+            (f"{name} (m/s)", f"own {name} (m/s)"),
+            _other_velocity(axis),
+            _is_kept,
+            (OWN, OWN + 0.1),
+            OWN,
+        )
+        for axis, name in enumerate("xyz")
     ),
     Comparison("vector too short", "01 VEC", ("x", "y"), _small, _is_small, (1e-6, 1e-3), 1e-4),
     Comparison(
