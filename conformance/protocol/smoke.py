@@ -88,7 +88,7 @@ def examine(
         yield Finding(Mark.WRONG, "start", str(error), "a program that can be run from this folder")
         return
     except EngineTroubleError as error:
-        yield Finding(Mark.WRONG, "handshake", str(error), EXAMPLE_START)
+        yield Finding(Mark.WRONG, "handshake", str(error).removeprefix("handshake: "), EXAMPLE_START)
         return
     with examination:
         yield from examination.findings(say, vectors)

@@ -78,9 +78,9 @@ def test_our_own_bridge_holds_scenes(with_scenes: Path) -> None:
 @pytest.mark.parametrize(
     ("mode", "step", "said"),
     [
-        ("banner", "handshake", "handshake: bad reply: found 'Loading the world ...', which is not JSON"),
+        ("banner", "handshake", "bad reply: found 'Loading the world ...', which is not JSON"),
         ("no-ops", "handshake", "no operation is declared"),
-        ("unknown-op", "handshake", "handshake: bad reply: found unknown operation 'block_ofset'"),
+        ("unknown-op", "handshake", "bad reply: found unknown operation 'block_ofset'"),
         ("previous", "fresh answers", "block_offset: q2 has the answer of q1, which was asked before"),
         ("sour", "reply", "the engine ended with exit status 4 when it was stopped, expected 0"),
         ("chatty", "reply", "the engine writes on after its last reply: b'bye"),
