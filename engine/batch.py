@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, Final
 
 import numpy as np
 
@@ -24,6 +24,9 @@ if TYPE_CHECKING:
     from engine.kernels.types import Ints
     from engine.query import Rows
     from engine.world import World
+
+
+_STRANGE: Final = "it names a cell or an object that this world doesn't have, or too many spheres or records"
 
 
 def resolve(world: World, move: Move, *, plan: Plan = FULL_PLAN) -> Any:
@@ -71,7 +74,8 @@ def resolve_many(
     ----------
     world : World
     moves : sequence of Move, or records of `engine.layout.QUERY_DTYPE`
-        Rows are made by `engine.query.move_rows`.
+        Rows are made by `engine.query.move_rows`; of their numbers only those that name cells, objects and
+        spheres are looked at again.
     threads : int
         How many share them; the results are the same for any number.
     plan : Plan
@@ -210,13 +214,15 @@ def check_status(status: Any, results: Rows | None = None) -> None:
 
     Raises
     ------
-    CrowdedError, RecursionBoundError, UndeterminedError
+    CrowdedError, QueryError, RecursionBoundError, UndeterminedError
         The last only if there is none of the others.
     """
     failed = np.flatnonzero(status != at.STATUS_OK)
     for index in failed:
         if status[index] == STATUS_CROWDED:
             raise CrowdedError(f"body {index} has touched more than {MAX_RECORDS} objects within a second")
+        if status[index] == at.STATUS_STRANGE:
+            raise QueryError(f"row {index}", _STRANGE)
         if status[index] != at.STATUS_UNDETERMINED:
             raise RecursionBoundError(f"query {index}: status {int(status[index])}")
     if len(failed):

@@ -115,6 +115,7 @@ class World:
         listed = lists.write(storage)
         header |= write_cells(storage, numbers, listed, restricted, cells, blocks, houses)
         header |= _write_ids(storage, numbers.keys())
+        header[int(at.WORLD_OBJECTS)] = self.num_objects
         header |= self._rows(len(cells) + len(numbers.unloaded))
         counts = len(lists.obstacles), len(buildings)
         header |= write_bounds(storage, header, cells, numbers.ids, listed, counts)

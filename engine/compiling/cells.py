@@ -168,6 +168,7 @@ def write_cells(
         _write_ground(storage, ints[first : first + int(at.LAND_CELLS)], block)
     return {
         int(at.WORLD_CELLS): len(cells),
+        int(at.WORLD_ALL_CELLS): len(numbers.ids),
         int(at.WORLD_CELL_FLOATS): storage.add_floats(np.concatenate(floats).ravel()),
         int(at.WORLD_CELL_INTS): storage.add_ints(ints.ravel()),
     }

@@ -17,10 +17,16 @@ from engine.kernels.object_calls import meet
 from engine.kernels.order import BODIES, CALLS, MOVES, order_lane, turn
 from engine.kernels.resolving import resolve
 from engine.kernels.sharing import SHARE_LANES, join, lane_after, put_back, take
+from engine.kernels.strangers import (
+    is_strange_body,
+    is_strange_collision,
+    is_strange_meeting,
+    is_strange_move,
+)
 from engine.kernels.tick import step
 from engine.kernels.tick_gates import update
 from engine.kernels.tick_placement import place
-from engine.layout import QUERY_SIZE, R_STATUS, RESULT_SIZE, STATUS_OK
+from engine.layout import QUERY_SIZE, R_STATUS, RESULT_SIZE, STATUS_OK, STATUS_STRANGE
 
 if TYPE_CHECKING:
     from engine.kernels.types import Array, Ints, Order
@@ -46,15 +52,30 @@ FAR_AHEAD: Final = frozen(4)
 """The same for what takes longer, and is brought only half the way."""
 
 
+@kernel
+def _refuse(out: Array) -> float:
+    """Answer a row that its world cannot: with nothing but a status, which is returned."""
+    for k in range(RESULT_SIZE):
+        out[k] = 0.0
+    out[R_STATUS] = STATUS_STRANGE
+    return out[R_STATUS]
+
+
 @inlined
 def _do(wf: Array, wi: Ints, s: Array, job: int, rows: Array, out: Array, i: int) -> float:
     """Do a job for one row; return its status."""
     if job == COLLIDE:
+        if is_strange_collision(wi, rows[i]):
+            return _refuse(out[i])
         collide(wf, wi, s, rows[i], out[i])
     elif job == MEET:
+        if is_strange_meeting(wi, rows[i]):
+            return _refuse(out[i])
         meet(wf, wi, s, rows[i], out[i])
     else:
-        if job == STEP:
+        if is_strange_body(wi, rows[i]):
+            rows[i, B_STATUS] = STATUS_STRANGE
+        elif job == STEP:
             step(wf, wi, s, rows[i], out[0, 0], out[0, 1])
         elif job == PLACE:
             place(wf, wi, s, rows[i], out[i])
@@ -84,7 +105,10 @@ def _resolve_some(
         i, later = turn(order, k), turn(order, min(k + AHEAD, last - 1))
         bring_near(rows, QUERY_SIZE * later, QUERY_SIZE)
         bring_near(out, RESULT_SIZE * later, RESULT_SIZE)
-        resolve(wf, wi, s, rows[i], out[i])
+        if is_strange_move(wi, rows[i]):
+            _refuse(out[i])
+        else:
+            resolve(wf, wi, s, rows[i], out[i])
         failed += out[i, R_STATUS] != STATUS_OK
     return failed
 

@@ -156,3 +156,5 @@ STATUS_RECURSION: Final = frozen(1)
 """An inner insert reached what retail only reaches from the outermost one (05, 10)."""
 STATUS_UNDETERMINED: Final = frozen(2)
 """A root was NaN where the specification doesn't know which way retail goes (07, 11)."""
+STATUS_STRANGE: Final = frozen(3)
+"""The row names what its world doesn't have: a cell, an object, more spheres than a mover may have."""

@@ -70,6 +70,8 @@ _header = Row()
 
 WORLD_CELLS: Final = _header.field("num_environment_cells")
 """Cells below this number are environment cells, the others land cells."""
+WORLD_ALL_CELLS: Final = _header.field("num_cells")
+WORLD_OBJECTS: Final = _header.field("num_objects")
 WORLD_CELL_FLOATS: Final = _header.field("cell_floats")
 WORLD_CELL_INTS: Final = _header.field("cell_ints")
 WORLD_OBJECT_FLOATS: Final = _header.field("object_floats")
