@@ -104,11 +104,11 @@ def full(seed: int, sections: tuple[str, ...], fixtures: Path | None) -> Setting
         sections=sections,
         scenes=("room", "building", "dungeon"),
         rounds=11,
-        fast_rounds=21,
+        fast_rounds=15,
         sizes=FULL_SIZES,
         exact_moves=120,
         grids=((2, 1), (4, 4), (7, 7), (12, 12), (22, 22), (38, 38)),
         case_step=6,
-        case_rounds=6,
+        case_rounds=4,
         fixtures=fixtures,
     )

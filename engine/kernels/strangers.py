@@ -47,6 +47,12 @@ def _is_one_of(number: float, count: int) -> bool:
 
 
 @inlined
+def _is_cell(wi: Ints, number: float) -> bool:
+    """Say whether a number is that of a cell, or of none: who has left the world is nowhere."""
+    return number == NO_CELL or _is_one_of(number, wi[WORLD_ALL_CELLS])
+
+
+@inlined
 def _object(wi: Ints, q: Array) -> int:
     """Return where the record of the object lies that a query names."""
     return wi[WORLD_OBJECT_INTS] + OBJECT_INTS * int(q[Q_TARGET_OBJECT])
@@ -54,8 +60,8 @@ def _object(wi: Ints, q: Array) -> int:
 
 @inlined
 def is_strange_move(wi: Ints, q: Array) -> bool:
-    """Say whether a query begins in no cell of its world, or has too many spheres."""
-    return not (_is_one_of(q[Q_BEGIN_CELL], wi[WORLD_ALL_CELLS]) and 0.0 <= q[Q_NUM_SPHERE] <= MAX_SPHERES)
+    """Say whether a query begins in a cell that its world doesn't have, or has too many spheres."""
+    return not (_is_cell(wi, q[Q_BEGIN_CELL]) and 0.0 <= q[Q_NUM_SPHERE] <= MAX_SPHERES)
 
 
 @kernel
@@ -91,9 +97,8 @@ def is_strange_meeting(wi: Ints, q: Array) -> bool:
 @kernel
 def is_strange_body(wi: Ints, b: Array) -> bool:
     """Say whether a body is in a cell that its world doesn't have, or has too many spheres or records."""
-    nowhere = b[B_CELL] == NO_CELL
     return not (
-        (nowhere or _is_one_of(b[B_CELL], wi[WORLD_ALL_CELLS]))
+        _is_cell(wi, b[B_CELL])
         and 0.0 <= b[B_NUM_SPHERE] <= MAX_SPHERES
         and 0.0 <= b[B_NUM_RECORDS] <= MAX_RECORDS
     )

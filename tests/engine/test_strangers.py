@@ -54,7 +54,7 @@ MAKERS: dict[str, Callable[[], Any]] = {
 NO_INDEX = (-2.0, 2.0, 1e300, math.inf, math.nan)
 """Indices of nothing in a world of two cells and two objects."""
 STRANGE = [
-    *((name, "begin_cell", value) for name in MAKERS for value in (-1.0, *NO_INDEX)),
+    *((name, "begin_cell", value) for name in MAKERS for value in NO_INDEX),
     *((name, "num_sphere", value) for name in MAKERS for value in (-1.0, 3.0, math.nan)),
     *(("find_collisions_many", "target_object", value) for value in (1.0, *NO_INDEX)),
     *(("find_collisions_many", "target_cell", value) for value in (-1.0, 1.0, *NO_INDEX)),
@@ -101,6 +101,13 @@ def test_a_strange_body_is_named_and_the_others_tick(field: str, value: float) -
     with pytest.raises(QueryError, match="row 1"):
         engine.step_many(WORLD, rows, 1 / 30, 1)
     assert rows[[0, 2]].tobytes() == expected[[0, 2]].tobytes()
+
+
+def test_who_has_left_the_world_is_no_stranger() -> None:
+    """A move that begins in no cell fails as retail's does (FT-1)."""
+    rows = MAKERS["resolve_many"]()
+    rows["begin_cell"] = at.NO_CELL
+    assert engine.resolve_many(WORLD, rows)["result"].tolist() == [0.0, 0.0, 0.0]
 
 
 def test_rows_of_a_larger_world_are_refused() -> None:
