@@ -98,7 +98,7 @@ def quick(seed: int, sections: tuple[str, ...], fixtures: Path | None) -> Settin
 
 
 def full(seed: int, sections: tuple[str, ...], fixtures: Path | None) -> Settings:
-    """Return the settings of a run of less than ten minutes."""
+    """Return the settings of a whole run: a quarter of an hour or so."""
     return Settings(
         seed=seed,
         sections=sections,
