@@ -7,21 +7,18 @@ from typing import TYPE_CHECKING, Any, Final
 import numpy as np
 
 from engine import layout as at
+from engine.answering import answer
 from engine.body_layout import MAX_RECORDS, STATUS_CROWDED
-from engine.coherence import order_for
 from engine.errors import CrowdedError, QueryError, RecursionBoundError, UndeterminedError
 from engine.given import room
 from engine.kernels import program
 from engine.object_call import ObjectCall, object_rows
 from engine.plan import FULL_PLAN, NO_PLAN, Plan
 from engine.query import CollisionCall, Move, collision_rows, move_rows
-from engine.threads import together
-from engine.tracing import runnable
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
-    from engine.kernels.types import Ints
     from engine.query import Rows
     from engine.world import World
 
@@ -189,15 +186,8 @@ def _run(
     queries = np.require(rows, requirements=("C", "W")).view(np.float64).reshape(len(rows), at.QUERY_SIZE)
     results = room(out, at.RESULT_DTYPE, (len(rows),), [queries], "out")
     answers = results.view(np.float64).reshape(len(rows), at.RESULT_SIZE)
-    run = runnable(program.run)
-    order = order_for(len(rows), threads, coherent=coherent)
-
-    def work(share: Ints) -> None:
-        row = world.take_row(plan)
-        run(world.floats, world.ints, row, job, queries, answers, order, share)
-        world.give_back(row)
-
-    if together(work, len(rows), threads):
+    given = job, queries, answers
+    if answer(world, program.run, lambda: given, len(rows), threads, plan=plan, coherent=coherent):
         check_status(results["status"], results)
     return results
 

@@ -9,14 +9,12 @@ import numpy as np
 
 from engine import body_layout as of_body
 from engine import layout as at
+from engine.answering import answer
 from engine.batch import check_status
 from engine.body import Body, body_rows, rows_as_numbers
-from engine.coherence import AS_ASKED
 from engine.errors import QueryError
 from engine.kernels import program
 from engine.pose import pose_row
-from engine.threads import new_share
-from engine.tracing import runnable
 
 if TYPE_CHECKING:
     from engine.pose import Pose
@@ -100,9 +98,8 @@ def place(
     given["slide"], given["do_not_load_cells"] = slide, do_not_load_cells
     numbers = placements.view(np.float64).reshape(1, int(of_body.PLACEMENT_SIZE))
     bodies = rows_as_numbers(rows)
-    row, share = world.new_row(), new_share(1)
-    runnable(program.run)(world.floats, world.ints, row, program.PLACE, bodies, numbers, AS_ASKED, share)
-    check_status(rows["status"])
+    if answer(world, program.run, lambda: (program.PLACE, bodies, numbers), 1, 1, coherent=False):
+        check_status(rows["status"])
     x, y, z = (float(c) for c in given["pose"][at.POSE_ORIGIN :])
     return Placement(PlacementResult(int(given["result"])), rows[0], (x, y, z))
 

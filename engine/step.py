@@ -7,10 +7,10 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from engine.answering import answer
 from engine.batch import check_status
 from engine.body import Body, body_rows, rows_as_numbers
 from engine.body_layout import BODY_DTYPE
-from engine.coherence import order_for
 from engine.constants import CHECK_ETHEREAL_TS, MAX_ELASTICITY, MAX_QUANTUM
 from engine.effort import check_tick
 from engine.errors import QueryError
@@ -19,15 +19,13 @@ from engine.kernels import program, tick_velocity
 from engine.kernels.tick_gates import MAX_TICKS
 from engine.layout import VECTOR_SIZE
 from engine.plan import FULL_PLAN, Plan
-from engine.threads import together
-from engine.tracing import runnable
 
 if TYPE_CHECKING:
     from collections.abc import Callable
 
     import numpy.typing as npt
 
-    from engine.kernels.types import Array, Ints
+    from engine.kernels.types import Array
     from engine.query import Rows
     from engine.world import World
 
@@ -90,17 +88,9 @@ def step_many(
     quantum = float(float32_array([dt], (1,), "dt", QueryError)[0])
     if not quantum > 0.0:
         raise QueryError("dt", f"{dt} seconds is not greater than 0")
-    numbers = _ready(rows)
-    order = order_for(len(rows), threads, coherent=coherent)
+    given = program.STEP, _ready(rows), np.array([[quantum, float(ticks)]])
     check_tick(rows, quantum)
-    run, times = runnable(program.run), np.array([[quantum, float(ticks)]])
-
-    def work(share: Ints) -> None:
-        row = world.take_row(plan)
-        run(world.floats, world.ints, row, program.STEP, numbers, times, order, share)
-        world.give_back(row)
-
-    if together(work, len(rows), threads):
+    if answer(world, program.run, lambda: given, len(rows), threads, plan=plan, coherent=coherent):
         check_status(rows["status"])
     return rows
 
@@ -139,18 +129,14 @@ def update_many(
     if not math.isfinite(now):
         raise QueryError("now", f"{now} is not a time")
     numbers = _ready(rows)
-    order = order_for(len(rows), threads, coherent=coherent)
     check_tick(rows, MAX_QUANTUM)
-    run = runnable(program.run)
 
-    def work(share: Ints) -> None:
+    def given() -> tuple[int, Array, Array]:
         times = np.zeros((3, int(MAX_TICKS)), dtype=np.float64)
         times[0, 0] = now
-        row = world.take_row(plan)
-        run(world.floats, world.ints, row, program.UPDATE, numbers, times, order, share)
-        world.give_back(row)
+        return program.UPDATE, numbers, times
 
-    if together(work, len(rows), threads):
+    if answer(world, program.run, given, len(rows), threads, plan=plan, coherent=coherent):
         check_status(rows["status"])
     return rows
 

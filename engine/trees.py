@@ -2,25 +2,21 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any, Final
+from typing import TYPE_CHECKING, Final
 
 import numpy as np
 
 from engine import layout as at
+from engine.answering import answer
 from engine.checks import LARGEST_INDEX, whole
-from engine.coherence import order_for
 from engine.errors import QueryError
 from engine.given import room, rooms
 from engine.kernels import tree_calls
-from engine.threads import together
-from engine.tracing import runnable
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Sequence
-
     import numpy.typing as npt
 
-    from engine.kernels.types import Array, Ints
+    from engine.kernels.types import Array
     from engine.world import World
 
 _WHOLE: Final = whole(-LARGEST_INDEX, LARGEST_INDEX)
@@ -80,8 +76,8 @@ def strike_many(
     hits, ids = rooms(out, 2, "out")
     struck = room(hits, np.int32, (count,), asked, "out[0], struck")
     polygons = room(ids, np.int32, (count,), (*asked, struck), "out[1], polygons")
-    rows = (*asked, struck, polygons)
-    _run(tree_calls.strike_many, world, root, rows, threads, coherent=coherent)
+    rows = (root, *asked, struck, polygons)
+    answer(world, tree_calls.strike_many, lambda: rows, count, threads, coherent=coherent)
     return struck, polygons
 
 
@@ -157,29 +153,9 @@ def step_down_many(
     left[:] = _scalars(interps, count, "interps")
     centers = room(places, np.float64, (count, int(at.VECTOR_SIZE)), (*asked, left), "out[0], centers")
     polygons = room(ids, np.int32, (count,), (*asked, left, centers), "out[2], polygons")
-    rows = (*asked, left, centers, polygons)
-    _run(tree_calls.step_down_many, world, root, rows, threads, coherent=coherent)
+    rows = (root, *asked, left, centers, polygons)
+    answer(world, tree_calls.step_down_many, lambda: rows, count, threads, coherent=coherent)
     return centers, left, polygons
-
-
-def _run(
-    kernel: Callable[..., None],
-    world: World,
-    root: int,
-    rows: Sequence[npt.NDArray[Any]],
-    threads: int,
-    *,
-    coherent: bool,
-) -> None:
-    run = runnable(kernel)
-    order = order_for(len(rows[0]), threads, coherent=coherent)
-
-    def work(share: Ints) -> None:
-        row = world.take_row()
-        run(world.floats, world.ints, row, root, *rows, order, share)
-        world.give_back(row)
-
-    together(work, len(rows[0]), threads)
 
 
 def _tree(world: World, cell: int) -> int:
