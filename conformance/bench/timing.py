@@ -17,6 +17,7 @@ import numpy as np
 import numpy.typing as npt
 
 from conformance.bench.figures import Summary, summarise
+from engine.collector import without_collector
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterable, Iterator, Sequence
@@ -99,14 +100,9 @@ def sample_of(maker: Maker, count: int) -> Maker:
 @contextmanager
 def no_collection() -> Iterator[None]:
     """Keep the garbage collector out of the clock."""
-    was_on = gc.isenabled()
     gc.collect()
-    gc.disable()
-    try:
+    with without_collector():
         yield
-    finally:
-        if was_on:
-            gc.enable()
 
 
 def clock(job: Job) -> tuple[float, Any]:
