@@ -14,7 +14,7 @@ from engine.kernels.bsp_walkable import find_walkable, hits_walkable
 from engine.kernels.collision_info import set_contact_plane
 from engine.kernels.compile import inlined, kernel
 from engine.kernels.frame import rotate_x_last
-from engine.kernels.path import add_offset_to_check_pos, set_walkable
+from engine.kernels.path import add_offset_to_check_pos, enter_second_sphere, set_walkable
 from engine.kernels.plane import plane_localtoglobal
 from engine.kernels.position import position_localtoglobalvec
 from engine.kernels.rounding import f32
@@ -64,9 +64,10 @@ def find_room(wf: Array, wi: Ints, s: Array, root: int) -> int:
     flag = center_check_flag(s)
     if _touches_solid(wf, wi, s, root, LOCALSPACE_SPHERE, flag):
         return COLLIDED
-    if s[NUM_SPHERE] > 1.0 and _touches_solid(wf, wi, s, root, _SECOND_SPHERE, flag):
-        return COLLIDED
-    return OK
+    if s[NUM_SPHERE] <= 1.0:
+        return OK
+    enter_second_sphere(s)
+    return COLLIDED if _touches_solid(wf, wi, s, root, _SECOND_SPHERE, flag) else OK
 
 
 @kernel

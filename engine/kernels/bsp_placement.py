@@ -8,7 +8,7 @@ from engine.constants import ADJUSTED, COLLIDED, OK, PLACEMENT_TRIES
 from engine.kernels.bsp_ground import center_check_flag
 from engine.kernels.bsp_poly import sphere_intersects_solid_poly
 from engine.kernels.compile import entry, inlined, kernel
-from engine.kernels.path import add_offset_to_check_pos
+from engine.kernels.path import add_offset_to_check_pos, enter_second_sphere
 from engine.kernels.polygon_adjust import polygon_placement_push
 from engine.kernels.position import position_localtoglobalvec
 from engine.kernels.rounding import f32
@@ -55,11 +55,13 @@ def _placement_insert(wf: Array, wi: Ints, s: Array, root: int) -> int:
 
     retail: PI-1...PI-7
     """
+    one = s[NUM_SPHERE] <= 1.0
+    if not one:
+        enter_second_sphere(s)
     ax, ay, az = load(s, LOCALSPACE_SPHERE)
     ar = s[LOCALSPACE_SPHERE + RADIUS]
     bx, by, bz = load(s, LOCALSPACE_SPHERE + SPHERE_SIZE)
     br = s[LOCALSPACE_SPHERE + SPHERE_SIZE + RADIUS]
-    one = s[NUM_SPHERE] <= 1.0
     r = ar
     poly = NO_POLYGON
     flag = center_check_flag(s)

@@ -18,7 +18,7 @@ from engine.kernels.bsp_search import adjust_to_plane
 from engine.kernels.collision_info import set_collision_normal
 from engine.kernels.compile import inlined, kernel
 from engine.kernels.frame import frame_localtoglobalvec
-from engine.kernels.path import set_collide, set_neg_poly_hit
+from engine.kernels.path import enter_second_sphere, set_collide, set_neg_poly_hit
 from engine.kernels.position import position_localtoglobalvec
 from engine.kernels.sphere import slide_sphere
 from engine.kernels.vector import load, store
@@ -81,6 +81,7 @@ def collide_in_contact(wf: Array, wi: Ints, s: Array, root: int, mx: float, my: 
         return NEEDS_STEP_UP
     if s[NUM_SPHERE] <= 1.0:
         return OK
+    enter_second_sphere(s)
     struck, poly2 = _strikes(wf, wi, s, root, _SECOND_SPHERE, mx, my, mz, NO_POLYGON)
     if struck:
         x, y, z = _response_normal(wf, s, poly2)
@@ -108,6 +109,7 @@ def collide_in_air(wf: Array, wi: Ints, s: Array, root: int, mx: float, my: floa
         s[WALKABLE_ALLOWANCE] = Z_LANDING
         return ADJUSTED
     if s[NUM_SPHERE] > 1.0:
+        enter_second_sphere(s)
         _, poly = _strikes(wf, wi, s, root, _SECOND_SPHERE, mx, my, mz, NO_POLYGON)
         if poly != NO_POLYGON:
             x, y, z = _global_normal(wf, s, poly)

@@ -18,6 +18,7 @@ from engine.constants import (
 from engine.kernels.bsp_ground import find_landing, find_room, find_support, step_sphere_down
 from engine.kernels.bsp_struck import collide_clipped, collide_in_air, collide_in_contact
 from engine.kernels.compile import entry, kernel
+from engine.kernels.path import enter_current_center
 from engine.kernels.rounding import f32
 from engine.kernels.trace import (
     AIRBORNE_CALL,
@@ -92,6 +93,7 @@ def _take_path(wf: Array, wi: Ints, s: Array, root: int, scale: float, path: int
         return find_support(wf, wi, s, root)
     if path == STEP_DOWN_CALL:
         return step_sphere_down(wf, wi, s, root, scale)
+    enter_current_center(s)
     x, y, z = load(s, LOCALSPACE_SPHERE)
     cx, cy, cz = load(s, LOCALSPACE_CURR_CENTER)
     mx, my, mz = f32(x - cx), f32(y - cy), f32(z - cz)

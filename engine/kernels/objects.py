@@ -37,7 +37,7 @@ from engine.kernels.bsp_tree import find_collisions
 from engine.kernels.collision_info import add_object
 from engine.kernels.compile import inlined, kernel
 from engine.kernels.cylsphere import test_cylsphere
-from engine.kernels.path import enter_localspace
+from engine.kernels.path import enter_localspace, enter_second_sphere
 from engine.kernels.sphere_obstacle import test_sphere
 from engine.kernels.vector import load
 from engine.layout import (
@@ -206,6 +206,8 @@ def _any_sphere_near(wf: Array, s: Array, root: int) -> bool:
     retail: 08 7.2
     """
     for i in range(int(s[NUM_SPHERE])):
+        if i > 0:
+            enter_second_sphere(s)
         at = LOCALSPACE_SPHERE + SPHERE_SIZE * i
         x, y, z = load(s, at)
         if in_bounds(wf, root, x, y, z, s[at + RADIUS]):

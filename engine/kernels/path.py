@@ -29,6 +29,8 @@ from engine.layout import (
     LOCAL_LOW_POINT,
     LOCAL_SPHERE,
     LOCALSPACE_CURR_CENTER,
+    LOCALSPACE_HAS_CURRENT,
+    LOCALSPACE_INVERSE,
     LOCALSPACE_LOW_POINT,
     LOCALSPACE_OF,
     LOCALSPACE_POS,
@@ -187,68 +189,107 @@ def _to_localspace(
     return f32(inv * vx), f32(inv * vy), f32(inv * vz)
 
 
-@entry
-def cache_localspace_sphere(s: Array, a: Array, p: int, scale: float) -> None:
-    """Put the spheres, at the check and the current position, into the space of what is tested.
+@inlined
+def _begin_localspace(s: Array, a: Array, p: int, inv: float) -> None:
+    """Note what the space at p is, and where up is in it.
 
-    `a`, `p`: the position of that space; `scale`: of the thing tested.
-
-    retail: SPHEREPATH::cache_localspace_sphere 0x0050C9D0, LS-1...LS-5
+    retail: LS-1, LS-3, LS-4
     """
-    inv = f32(1.0 / scale)
-    bx, by = block_offset(a[p], s[CHECK_POS])
-    cx, cy = block_offset(a[p], s[CURR_POS])
-    for i in range(int(s[NUM_SPHERE])):
-        local = LOCAL_SPHERE + SPHERE_SIZE * i
-        at = LOCALSPACE_SPHERE + SPHERE_SIZE * i
-        s[at + RADIUS] = f32(inv * s[local + RADIUS])
-        x, y, z = _to_localspace(a, p, bx, by, inv, s, CHECK_POS, local)
-        store(s, at, x, y, z)
-        x, y, z = _to_localspace(a, p, cx, cy, inv, s, CURR_POS, local)
-        store(s, LOCALSPACE_CURR_CENTER + 3 * i, x, y, z)
     copy_position(s, LOCALSPACE_POS, a, p)
+    s[LOCALSPACE_INVERSE] = inv
     m = LOCALSPACE_POS + MATRIX
     ux = f32((s[m + 1] + s[m]) * 0.0 + s[m + 2])
     uy = f32((s[m + 4] + s[m + 3]) * 0.0 + s[m + 5])
     uz = f32((s[m + 7] + s[m + 6]) * 0.0 + s[m + 8])
     store(s, LOCALSPACE_Z, ux, uy, uz)
-    _cache_localspace_low_point(s)
-    s[LOCALSPACE_OF] = 0.0
 
 
 @inlined
-def _cache_localspace_low_point(s: Array) -> None:
-    """Find the lowest point of sphere 0.
+def _local_sphere(s: Array, a: Array, p: int, inv: float, i: int) -> None:
+    """Put the i-th sphere, at the check position, into the space at p.
 
-    retail: LS-5
+    retail: LS-2
     """
+    local, at = LOCAL_SPHERE + SPHERE_SIZE * i, LOCALSPACE_SPHERE + SPHERE_SIZE * i
+    bx, by = block_offset(a[p], s[CHECK_POS])
+    x, y, z = _to_localspace(a, p, bx, by, inv, s, CHECK_POS, local)
+    store(s, at, x, y, z)
+    s[at + RADIUS] = f32(inv * s[local + RADIUS])
+
+
+@inlined
+def _local_current(s: Array, a: Array, p: int, inv: float, i: int) -> None:
+    """Put the centre of the i-th sphere, at the current position, into the space at p.
+
+    retail: LS-2
+    """
+    bx, by = block_offset(a[p], s[CURR_POS])
+    x, y, z = _to_localspace(a, p, bx, by, inv, s, CURR_POS, LOCAL_SPHERE + SPHERE_SIZE * i)
+    store(s, LOCALSPACE_CURR_CENTER + 3 * i, x, y, z)
+
+
+@entry
+def cache_localspace_sphere(s: Array, a: Array, p: int, scale: float) -> None:
+    """Put all of the spheres, at the check and the current position, into the space of what is tested.
+
+    `a`, `p`: the position of that space; `scale`: of the thing tested. What is only tested against a tree
+    takes `enter_localspace`.
+
+    retail: SPHEREPATH::cache_localspace_sphere 0x0050C9D0, LS-1...LS-5
+    """
+    inv = f32(1.0 / scale)
+    _begin_localspace(s, a, p, inv)
+    for i in range(int(s[NUM_SPHERE])):
+        _local_sphere(s, a, p, inv, i)
+        _local_current(s, a, p, inv, i)
     ux, uy, uz = load(s, LOCALSPACE_Z)
     r = s[LOCALSPACE_SPHERE + RADIUS]
     by, bz = f32(r * uy), f32(r * uz)
     x, y, z = load(s, LOCALSPACE_SPHERE)
     store(s, LOCALSPACE_LOW_POINT, f32(x - r * ux), f32(y - by), f32(z - bz))
+    s[LOCALSPACE_OF] = 0.0
 
 
 @kernel
 def enter_localspace(s: Array, wf: Array, p: int, scale: float) -> None:
-    """Put the spheres into the space of a cell or a part, whose position lies at ``wf[p]``.
+    """Put sphere 0, at the check position, into the space of a cell or a part, whose position lies at ``wf[p]``.
+
+    It is all that looking for ground takes. What some paths through a tree need besides, they ask for
+    themselves: `enter_second_sphere`, `enter_current_center`. Nobody reads the second sphere's current
+    centre, or the low point.
 
     A step tests the same cell several times. Unless the mover has moved on in between, or something else
     has been tested, only what depends on the check position has changed since.
 
-    retail: SPHEREPATH::cache_localspace_sphere 0x0050C9D0, LS-1...LS-5
+    retail: SPHEREPATH::cache_localspace_sphere 0x0050C9D0, LS-1...LS-4
     """
-    if s[LOCALSPACE_OF] != p:
-        cache_localspace_sphere(s, wf, p, scale)
-        s[LOCALSPACE_OF] = p
-        return
     inv = f32(1.0 / scale)
-    bx, by = block_offset(wf[p], s[CHECK_POS])
-    for i in range(int(s[NUM_SPHERE])):
-        local = LOCAL_SPHERE + SPHERE_SIZE * i
-        x, y, z = _to_localspace(wf, p, bx, by, inv, s, CHECK_POS, local)
-        store(s, LOCALSPACE_SPHERE + SPHERE_SIZE * i, x, y, z)
-    _cache_localspace_low_point(s)
+    if s[LOCALSPACE_OF] != p:
+        _begin_localspace(s, wf, p, inv)
+        s[LOCALSPACE_OF] = p
+        s[LOCALSPACE_HAS_CURRENT] = 0.0
+    if s[NUM_SPHERE] > 0.0:
+        _local_sphere(s, wf, p, inv, 0)
+
+
+@kernel
+def enter_second_sphere(s: Array) -> None:
+    """Put sphere 1 into the space that was entered last.
+
+    retail: SPHEREPATH::cache_localspace_sphere 0x0050C9D0, LS-2
+    """
+    _local_sphere(s, s, LOCALSPACE_POS, s[LOCALSPACE_INVERSE], 1)
+
+
+@kernel
+def enter_current_center(s: Array) -> None:
+    """Put sphere 0's centre at the current position into the space that was entered last, unless it is there.
+
+    retail: SPHEREPATH::cache_localspace_sphere 0x0050C9D0, LS-2
+    """
+    if s[LOCALSPACE_HAS_CURRENT] == 0.0 and s[NUM_SPHERE] > 0.0:
+        _local_current(s, s, LOCALSPACE_POS, s[LOCALSPACE_INVERSE], 0)
+        s[LOCALSPACE_HAS_CURRENT] = 1.0
 
 
 @entry

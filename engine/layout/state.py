@@ -123,6 +123,10 @@ CONTACT_POINT: Final = _row.field("contact_point", 3)
 LOCALSPACE_OF: Final = _row.field("localspace_of")
 """Where in the world's floats the position lies in whose space the row's `localspace` fields are, with the
 current position as it is; 0 for none."""
+LOCALSPACE_INVERSE: Final = _row.field("localspace_inverse")
+"""One by the scale of what lies in that space."""
+LOCALSPACE_HAS_CURRENT: Final = _row.field("localspace_has_current")
+"""Whether sphere 0's current centre is in that space, too."""
 SAVED_POS: Final = _row.field("saved_pos", POSITION_SIZE)
 """The local in which CTransition::check_walkable keeps the check position (WK-3)."""
 SCRATCH_FRAME: Final = _row.field("scratch_frame", POSITION_SIZE)
