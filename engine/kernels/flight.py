@@ -9,6 +9,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from engine.constants import CONTACT, EPS, EPS2, FLIGHT_STEPS, FREE_ROTATE, IS_VIEWER, ON_WALKABLE
+from engine.kernels.ahead import bring_near
 from engine.kernels.compile import inlined, kernel
 from engine.kernels.frame import frame_cache, frame_interpolate_rotation
 from engine.kernels.path import write_spheres
@@ -80,7 +81,7 @@ _R = R_COLLISION_INFO - COLLISION_INFO
 
 
 @kernel
-def fly_through(wf: Array, wi: Ints, s: Array, q: Array, out: Array) -> bool:
+def fly_through(wf: Array, wi: Ints, s: Array, q: Array, out: Array, next_out: Array) -> bool:
     """Answer a query if it is a free flight all the way; say whether it was.
 
     It is one if the mover neither touches, slides along nor looks for anything, and the ball about its way
@@ -95,6 +96,7 @@ def fly_through(wf: Array, wi: Ints, s: Array, q: Array, out: Array) -> bool:
     cell = int(q[Q_BEGIN_CELL])
     if not _is_in_the_air(s, q) or not is_flown_through(wf, wi, cell, q[Q_START]):
         return False
+    bring_near(next_out, 0, RESULT_SIZE)
     _take_off(s, q)
     turning = turns(s, CHECK_POS)
     if turning:

@@ -252,7 +252,7 @@ def cache_localspace_sphere(s: Array, a: Array, p: int, scale: float) -> None:
 
 @kernel
 def enter_localspace(s: Array, wf: Array, p: int, scale: float) -> None:
-    """Put sphere 0, at the check position, into the space of a cell or a part, whose position lies at ``wf[p]``.
+    """Put sphere 0, at the check position, into the space of a cell or a part, at ``wf[p]``.
 
     It is all that looking for ground takes. What some paths through a tree need besides, they ask for
     themselves: `enter_second_sphere`, `enter_current_center`. Nobody reads the second sphere's current

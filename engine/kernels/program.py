@@ -47,7 +47,10 @@ PLACE: Final = frozen(5)
 """Each row is a body, and each of ``out`` its placement: `engine.kernels.tick_placement.place`."""
 
 AHEAD: Final = frozen(2)
-"""How many moves before its turn a row is brought near: a free flight is over before its rows have come."""
+"""How many moves before its turn a row is brought near: a free flight is over before its rows have come.
+
+The row of results is brought when half of the work before is done: more than a dozen lines at a time, and the
+processor waits for the first of them."""
 FAR_AHEAD: Final = frozen(4)
 """The same for what takes longer, and is brought only half the way."""
 
@@ -86,11 +89,10 @@ def _do(wf: Array, wi: Ints, s: Array, job: int, rows: Array, out: Array, i: int
 
 
 @inlined
-def _bring(job: int, rows: Array, out: Array, i: int) -> None:
+def _bring(job: int, rows: Array, i: int) -> None:
     """Have a row brought nearer: of a body, what is before the objects it has touched."""
     if job in (COLLIDE, MEET):
         bring_nearer(rows, QUERY_SIZE * i, QUERY_SIZE)
-        bring_nearer(out, RESULT_SIZE * i, RESULT_SIZE)
     elif job != PLACE:
         bring_nearer(rows, BODY_SIZE * i, B_RECORDS)
 
@@ -104,11 +106,10 @@ def _resolve_some(
     for k in range(first, last):
         i, later = turn(order, k), turn(order, min(k + AHEAD, last - 1))
         bring_near(rows, QUERY_SIZE * later, QUERY_SIZE)
-        bring_near(out, RESULT_SIZE * later, RESULT_SIZE)
         if is_strange_move(wi, rows[i]):
             _refuse(out[i])
         else:
-            resolve(wf, wi, s, rows[i], out[i])
+            resolve(wf, wi, s, rows[i], out[i], out[later])
         failed += out[i, R_STATUS] != STATUS_OK
     return failed
 
@@ -139,7 +140,7 @@ def _do_some(
         return _resolve_some(wf, wi, s, rows, out, order, first, last)
     failed = 0
     for k in range(first, last):
-        _bring(job, rows, out, turn(order, min(k + FAR_AHEAD, last - 1)))
+        _bring(job, rows, turn(order, min(k + FAR_AHEAD, last - 1)))
         failed += _do(wf, wi, s, job, rows, out, turn(order, k)) != STATUS_OK
     return failed
 
