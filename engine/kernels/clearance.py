@@ -32,6 +32,11 @@ if TYPE_CHECKING:
     from engine.kernels.types import Array, Bytes, Ints
 
 
+_NEXT_TO = 0o73652140
+"""Which cubes about a corner are looked at, one after the other: its bits, from the least, say whether
+it is the next one along x, y and z. Rooms are wider than high: a mover is farthest from a middle along z."""
+
+
 @inlined
 def _level(wf: Array, wi: Ints, g: int, cube: int) -> int:
     """Return the level of a cube of the grid at `g`."""
@@ -57,16 +62,17 @@ def known_clear(wf: Array, wi: Ints, cell: int, x: float, y: float, z: float, r:
     g = wi[unsigned(wi[WORLD_CLEARANCES] + cell)]
     if g == NO_CLEARANCE:
         return False
-    k, corner, counts = wf[unsigned(g + CLEARANCE_PER_METRE)], g + CLEARANCE_CORNER, g + CLEARANCE_COUNTS
-    u = k * (x - wf[unsigned(corner)])
-    v = k * (y - wf[unsigned(corner + 1)])
-    w = k * (z - wf[unsigned(corner + 2)])
+    scale, corner, counts = wf[unsigned(g + CLEARANCE_PER_METRE)], g + CLEARANCE_CORNER, g + CLEARANCE_COUNTS
+    u = scale * (x - wf[unsigned(corner)])
+    v = scale * (y - wf[unsigned(corner + 1)])
+    w = scale * (z - wf[unsigned(corner + 2)])
     nu, nv, nw = wf[unsigned(counts)], wf[unsigned(counts + 1)], wf[unsigned(counts + 2)]
     if not (0.0 <= u < nu and 0.0 <= v < nv and 0.0 <= w < nw):
         return False
     edge, step = wf[unsigned(g + CLEARANCE_EDGE)], wf[unsigned(g + CLEARANCE_STEP)]
     i, j, n = int(u), int(v), int(w)
-    for other in range(8):
+    for k in range(8):
+        other = _NEXT_TO >> 3 * k & 7
         a = i + _side(u, i) * (other & 1)
         b = j + _side(v, j) * (other >> 1 & 1)
         c = n + _side(w, n) * (other >> 2)
