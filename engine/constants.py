@@ -221,6 +221,8 @@ BOUND_TILT: Final = 0.0025
 """How much a matrix may stretch whose quaternion is of unit length within EPS5, as a part of a length."""
 BOUND_MOST: Final = 2.0**14
 """Greatest coordinate, or radius, of geometry that has bounds, metres: float32 counts by 1 mm there."""
+UP_SLACK: Final = 2.0**-10
+"""How far, all three coordinates together, an up may be from the one that slopes have been measured along."""
 FLIGHT_STEPS: Final = 64.0
 """Most sub-steps that are bounded together."""
 UNBOUNDED: Final = math.inf

@@ -118,7 +118,7 @@ def _flat_planes(wf: Any, at: int, ux: float, uy: float, uz: float, least: float
 
 def _lowest(mask: int) -> int:
     """Do what `engine.kernels.abreast.lowest` does."""
-    return (mask & -mask).bit_length() - 1
+    return int(mask & -mask).bit_length() - 1
 
 
 def _number(value: Any) -> Any:

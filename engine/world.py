@@ -16,6 +16,7 @@ from engine.compiling.clearance import write_clearances
 from engine.compiling.ids import id_table
 from engine.compiling.objects import Parts, write_objects
 from engine.compiling.restrictions import write_restrictions
+from engine.compiling.slopes import write_slopes
 from engine.compiling.storage import Storage
 from engine.compiling.terrain import DETAILS, SIDE
 from engine.errors import WorldError
@@ -122,6 +123,8 @@ class World:
         header |= write_plates(storage, header)
         header |= write_clearances(storage, header, cells)
         self.floats, self.ints = storage.finish(header)
+        trees = {storage.root_of(shape): shape for shape in self.shapes}
+        write_slopes(self.floats, self.ints, trees, len(parts))
         self._polygons: Final = storage.polygons
         self._spare_rows: Final[list[Array]] = []
 

@@ -33,14 +33,30 @@ def leaf_planes(shape: Shape) -> tuple[Array, Ints, Ints]:
     leaves = np.flatnonzero(nodes[:, at.NODE_KIND] != at.KIND_NODE)
     if not (nodes[leaves, at.LEAF_COUNT] >= at.WIDE_LEAF).any():
         leaves = leaves[:0]
-    counts, firsts = nodes[leaves, at.LEAF_COUNT], nodes[leaves, at.LEAF_FIRST]
-    sizes = abreast * -(-counts // abreast)
+    sizes = abreast * -(-nodes[leaves, at.LEAF_COUNT] // abreast)
     begins = np.cumsum(sizes) - sizes
-    within = np.arange(counts.sum()) - np.repeat(np.cumsum(counts) - counts, counts)
-    listed = shape.leaf_polygons[np.repeat(firsts, counts) + within]
+    owners, within, listed = listed_polygons(shape, leaves)
     planes = np.zeros((int(sizes.sum()), plane), dtype=np.float64)
-    planes[np.repeat(begins, counts) + within] = shape.polygon_floats[
+    planes[begins[owners] + within] = shape.polygon_floats[
         shape.polygon_offsets[listed, None] + np.arange(plane)
     ]
     blocks: Array = planes.reshape(-1, abreast, plane).transpose(0, 2, 1).ravel()
     return blocks, leaves, plane * begins
+
+
+def listed_polygons(shape: Shape, leaves: Ints) -> tuple[Ints, Ints, Ints]:
+    """Return what leaves list, one leaf after the other.
+
+    Returns
+    -------
+    owners : ndarray of int
+        Of each entry, which of the leaves it is of.
+    within : ndarray of int
+        Its place in that leaf's list.
+    polygons : ndarray of int
+        The polygon there.
+    """
+    counts, firsts = shape.node_ints[leaves, at.LEAF_COUNT], shape.node_ints[leaves, at.LEAF_FIRST]
+    owners = np.repeat(np.arange(len(leaves)), counts)
+    within = np.arange(counts.sum()) - (np.cumsum(counts) - counts)[owners]
+    return owners, within, shape.leaf_polygons[firsts[owners] + within]

@@ -8,13 +8,16 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from engine.constants import EPS
+from engine.constants import EPS, FLOOR_Z, UP_SLACK
 from engine.kernels.compile import inlined
 from engine.kernels.indexing import unsigned
 from engine.kernels.polygon import plane_distance
 from engine.layout import (
     LEAF_COUNT_SHIFT,
+    LEAF_FIRST_MASK,
     LEAF_PLANES,
+    LEAF_SLOPES_SHIFT,
+    LEAF_UP,
     NODE_FLOATS,
     NODE_INTS,
     NODE_LEAF,
@@ -105,7 +108,27 @@ def negative(wi: Ints, node: int) -> int:
 def leaf_polygons(wi: Ints, leaf: int) -> tuple[int, int]:
     """Return where a leaf's list of polygons begins, and its length."""
     at = unsigned(NODE_INTS * leaf)
-    return wi[at + NODE_NEXT], wi[at + NODE_LEAF] >> LEAF_COUNT_SHIFT
+    return wi[at + NODE_NEXT] & LEAF_FIRST_MASK, wi[at + NODE_LEAF] >> LEAF_COUNT_SHIFT
+
+
+@inlined
+def slopes(
+    wf: Array, wi: Ints, leaf: int, count: int, ux: float, uy: float, uz: float, allowance: float
+) -> int:
+    """Return a bit for each polygon of a leaf's list that may be flat enough; the leaf is not wide.
+
+    `count`: how many it lists. Those without a bit are too steep for every allowance of at least FLOOR_Z and
+    every up near `LEAF_UP`: along an up whose coordinates differ from it by d in all, the component of a
+    normal n is not more than d * max(|nx|, |ny|, |nz|) larger, and they lack more than that
+    (`engine.compiling.slopes`). To any other question, NaN among them, each polygon has to answer itself.
+
+    retail: WH-1
+    """
+    up = unsigned(NODE_FLOATS * leaf + LEAF_UP)
+    apart = abs(ux - wf[up]) + abs(uy - wf[up + 1]) + abs(uz - wf[up + 2])
+    if apart <= UP_SLACK and allowance >= FLOOR_Z:
+        return wi[unsigned(NODE_INTS * leaf + NODE_NEXT)] >> LEAF_SLOPES_SHIFT
+    return (1 << count) - 1
 
 
 @inlined

@@ -5,7 +5,8 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from engine.constants import EPS
-from engine.kernels.bsp_node import descend, in_bounds, is_leaf, is_wide, leaf_polygons
+from engine.kernels.abreast import lowest
+from engine.kernels.bsp_node import descend, in_bounds, is_leaf, is_wide, leaf_polygons, slopes
 from engine.kernels.bsp_wide import find_walkable_on
 from engine.kernels.compile import entry, inlined
 from engine.kernels.indexing import unsigned
@@ -51,8 +52,10 @@ def _leaf_find_walkable(
     if count == 0 or not in_bounds(wf, leaf, x, y, z, r):
         return poly, x, y, z
     allowance = s[WALKABLE_ALLOWANCE]
-    for i in range(first, first + count):
-        p = wi[unsigned(i)]
+    left = slopes(wf, wi, leaf, count, ux, uy, uz, allowance)
+    while left != 0:
+        p = wi[unsigned(first + lowest(left))]
+        left &= left - 1
         if polygon_walkable_hits_sphere(wf, p, x, y, z, r, ux, uy, uz, allowance):
             moved, x, y, z, interp = polygon_adjust_sphere_to_plane(
                 wf, p, r, x, y, z, mx, my, mz, s[WALK_INTERP]

@@ -18,7 +18,11 @@ NODE_FLOATS: Final = frozen(8)
 NODE_SPHERE: Final = frozen(4)
 NODE_INTS: Final = frozen(2)
 NODE_NEXT: Final = frozen(0)
-"""The negative child; of a leaf, where the list of its polygons begins."""
+"""The negative child; of a leaf, in its lower bits, where the list of its polygons begins."""
+LEAF_FIRST_MASK: Final = frozen(0xFFFF_FFFF)
+LEAF_SLOPES_SHIFT: Final = frozen(32)
+"""Above those bits, of a leaf that is not wide, is one for each polygon of its list, set if that may be flat
+enough to be walked on (`engine.compiling.slopes`)."""
 NODE_LEAF: Final = frozen(1)
 """0 for a node that splits; else the two bits below, and the number of polygons above them."""
 LEAF_BIT: Final = frozen(1)
@@ -29,6 +33,8 @@ WIDE_LEAF: Final = frozen(24)
 LEAF_PLANES: Final = frozen(0)
 """Of a leaf's floats, in a tree that has a wide one: where in the world's floats the planes of its polygons
 begin, in blocks of `ABREAST`."""
+LEAF_UP: Final = frozen(1)
+"""Behind it, of a leaf that is not wide, the up that slopes have been measured along: a vector."""
 ABREAST: Final = frozen(8)
 """Planes in a block: first all x components, then y, z and d."""
 

@@ -57,7 +57,8 @@ def test_polygons_and_trees_are_relocated() -> None:
     assert negative == root + 2
     assert leaf & at.LEAF_BIT
     assert not leaf & at.SOLID_BIT
-    listed = world.ints[start : start + (leaf >> at.LEAF_COUNT_SHIFT)].tolist()
+    first_listed = start & at.LEAF_FIRST_MASK
+    listed = world.ints[first_listed : first_listed + (leaf >> at.LEAF_COUNT_SHIFT)].tolist()
     assert listed == [world.polygon(1, 0), world.polygon(1, 1)]
     assert world.floats[listed[1] + at.POLYGON_ID] == 1
     assert world.floats[listed[1] + at.POLYGON_SHAPE] == 1
