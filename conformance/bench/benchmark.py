@@ -10,6 +10,7 @@ from conformance.bench.contests import Contest
 from conformance.bench.messages import measure_messages
 from conformance.bench.native.compiler import NoCompilerError
 from conformance.bench.native_jobs import Native
+from conformance.bench.parts import spread
 from conformance.bench.peers import MODULES
 from conformance.bench.precision import NoExactError
 from conformance.bench.sampling import NoAirError, NoGroundError
@@ -65,8 +66,7 @@ def measure(settings: Settings, report: Report, say: Callable[[str], None]) -> N
             _attempt(report, name, lambda measure_it: measure_it(), curve)
     if "messages" in settings.sections:
         say("messages: reading cases")
-        cases, step = load_paths().cases, settings.case_step
-        turns = [cases[first::step] for first in range(settings.case_rounds)]
+        turns = spread(load_paths().cases, settings.case_parts)[: settings.case_rounds]
         _attempt(report, "messages", lambda chosen: measure_messages(chosen, report, say), turns)
 
 

@@ -6,7 +6,7 @@ from operator import itemgetter
 from typing import TYPE_CHECKING, Final
 
 from conformance.bench.machine import machine, versions
-from conformance.bench.tables import duration
+from conformance.bench.tables import MESSAGE_COLUMNS, duration, message_rows
 from conformance.files import write_text
 
 if TYPE_CHECKING:
@@ -65,6 +65,7 @@ def numbers(report: Report, command: str) -> str:
         _made_with(report, command),
         _section("Ratios, scene by scene", _overview(report)),
         _section("Ratios, with their spread", _ratios(report)),
+        _section("What messages add, by operation of the case", _messages(report)),
         _section("Work and precision", _points(report)),
         _section("Growth", _curves(report)),
         _section("Omissions", [f"- {line}" for line in report.omissions]),
@@ -139,6 +140,10 @@ def _ratios(report: Report) -> Iterable[str]:
         for line in report.ratios
     ]
     return _table(head, rows) if rows else ()
+
+
+def _messages(report: Report) -> Iterable[str]:
+    return _table(MESSAGE_COLUMNS, message_rows(report.messages)) if report.messages else ()
 
 
 def _points(report: Report) -> Iterable[str]:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import json
-from dataclasses import dataclass, field
+from dataclasses import asdict, dataclass, field
 from typing import TYPE_CHECKING, Any
 
 from conformance.bench.machine import machine, versions
@@ -118,6 +118,36 @@ class Point:
         return {"scene": self.scene, "label": self.label, "cost_ns": self.cost, "errors": self.errors}
 
 
+@dataclass(frozen=True, slots=True)
+class MessageCost:
+    """What messages add to the cases that ask an operation, for an engine that takes no time itself.
+
+    Attributes
+    ----------
+    op, dialect : str
+        What was asked, and how floats were written.
+    queries : int
+        How many were asked.
+    in_process, messages : float
+        Processor time of all of them in seconds: what they take without messages, and what messages add.
+    """
+
+    op: str
+    dialect: str
+    queries: int
+    in_process: float
+    messages: float
+
+    @property
+    def share(self) -> float:
+        """What messages add, as a part of what there is without them."""
+        return self.messages / self.in_process
+
+    def to_record(self) -> dict[str, Any]:
+        """Write it for JSON."""
+        return {**asdict(self), "share": self.share}
+
+
 @dataclass(frozen=True, slots=True, eq=False)
 class Worst:
     """The query of a scene in which retail is farthest from exact.
@@ -148,6 +178,8 @@ class Report:
         Of all random points.
     ratios, curves, points : list
         In order of measurement.
+    messages : list of MessageCost
+        Of each dialect, the operations on which messages spend most first.
     omissions : list of str
         What was not measured, and why.
     failures : list of str
@@ -162,6 +194,7 @@ class Report:
     ratios: list[Ratio] = field(default_factory=list)
     curves: list[Curve] = field(default_factory=list)
     points: list[Point] = field(default_factory=list)
+    messages: list[MessageCost] = field(default_factory=list)
     omissions: list[str] = field(default_factory=list)
     failures: list[str] = field(default_factory=list)
     facts: dict[str, Any] = field(default_factory=dict)
@@ -191,6 +224,7 @@ class Report:
             "ratios": [ratio.to_record() for ratio in self.ratios],
             "scaling": [curve.to_record() for curve in self.curves],
             "work_precision": [point.to_record() for point in self.points],
+            "messages": [cost.to_record() for cost in self.messages],
             "facts": self.facts,
             "omissions": self.omissions,
             "failures": self.failures,

@@ -48,8 +48,8 @@ class Settings:
         Moves whose errors are measured.
     grids : tuple of (int, int)
         Rooms along x and y of the scenes of the scaling curves.
-    case_step, case_rounds : int
-        Of so many cases one is judged over the protocol in each round, another in the next; and the rounds.
+    case_parts, case_rounds : int
+        The equal parts of the suite, and how many of them are judged over the protocol, each in a round.
     fixtures : Path or None
         Folder of real cells.
     """
@@ -62,7 +62,7 @@ class Settings:
     sizes: Mapping[str, int]
     exact_moves: int
     grids: tuple[tuple[int, int], ...]
-    case_step: int
+    case_parts: int
     case_rounds: int
     fixtures: Path | None = field(default=None)
 
@@ -91,7 +91,7 @@ def quick(seed: int, sections: tuple[str, ...], fixtures: Path | None) -> Settin
         sizes=QUICK_SIZES,
         exact_moves=60,
         grids=((2, 1), (3, 3), (6, 6)),
-        case_step=48,
+        case_parts=12,
         case_rounds=3,
         fixtures=fixtures,
     )
@@ -108,7 +108,7 @@ def full(seed: int, sections: tuple[str, ...], fixtures: Path | None) -> Setting
         sizes=FULL_SIZES,
         exact_moves=120,
         grids=((2, 1), (4, 4), (7, 7), (12, 12), (22, 22), (38, 38)),
-        case_step=6,
-        case_rounds=4,
+        case_parts=3,
+        case_rounds=3,
         fixtures=fixtures,
     )

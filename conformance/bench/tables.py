@@ -9,12 +9,27 @@ from rich.table import Table
 from conformance.bench.machine import machine, versions
 
 if TYPE_CHECKING:
+    from collections.abc import Sequence
+
     from rich.console import Console
 
-    from conformance.bench.report import Curve, Point, Ratio, Report
+    from conformance.bench.report import Curve, MessageCost, Point, Ratio, Report
 
 _MICROSECOND: Final = 1000.0
 """Nanoseconds."""
+_SECOND: Final = 1e9
+"""Nanoseconds."""
+MESSAGE_COLUMNS: Final = (
+    "op",
+    "floats",
+    "queries",
+    "in process",
+    "messages add",
+    "that is",
+    "of all messages",
+)
+MOST_OPERATIONS: Final = 8
+"""Operations that are told of each dialect: the rest of fifty costs next to nothing."""
 
 
 def show(console: Console, report: Report) -> None:
@@ -27,6 +42,8 @@ def show(console: Console, report: Report) -> None:
         console.print(f"scene {name}: {', '.join(str(size) for size in sizes)} polygons")
     if report.ratios:
         console.print(ratio_table(report.ratios), soft_wrap=False)
+    if report.messages:
+        console.print(message_table(report.messages), soft_wrap=False)
     if report.points:
         console.print(point_table(report.points), soft_wrap=False)
     if report.curves:
@@ -63,6 +80,37 @@ def ratio_table(ratios: list[Ratio]) -> Table:
             line.note,
         )
     return table
+
+
+def message_table(costs: Sequence[MessageCost]) -> Table:
+    """Return a line for each operation on which messages spend most, in each dialect."""
+    table = Table(title="processor time of a query, by operation of the case")
+    for column in MESSAGE_COLUMNS:
+        table.add_column(column, justify="left" if column in {"op", "floats"} else "right")
+    for row in message_rows(costs):
+        table.add_row(*row)
+    return table
+
+
+def message_rows(costs: Sequence[MessageCost]) -> list[tuple[str, ...]]:
+    """Return the cells of `MESSAGE_COLUMNS`, for `MOST_OPERATIONS` of each dialect."""
+    rows: list[tuple[str, ...]] = []
+    for dialect in dict.fromkeys(cost.dialect for cost in costs):
+        of_dialect = [cost for cost in costs if cost.dialect == dialect]
+        all_of_them = sum(cost.messages for cost in of_dialect)
+        rows += [
+            (
+                cost.op,
+                cost.dialect,
+                f"{cost.queries}",
+                duration(_SECOND * cost.in_process / cost.queries),
+                duration(_SECOND * cost.messages / cost.queries),
+                f"{cost.share:.0%}",
+                f"{cost.messages / all_of_them:.0%}",
+            )
+            for cost in of_dialect[:MOST_OPERATIONS]
+        ]
+    return rows
 
 
 def curve_table(curves: list[Curve]) -> Table:

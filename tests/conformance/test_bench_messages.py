@@ -43,7 +43,7 @@ def test_nobody_has_seen_a_scene_before() -> None:
     (first, _), (second, at_hand) = (messages._own_cases(CASES, outcomes) for _ in range(2))
     scenes = [cases[0].queries[0].geometries for cases in (CASES, first, second)]
     assert len({id(geometry) for scene in scenes for geometry in scene.values()}) == 3 * len(scenes[0])
-    assert [[at_hand.answer(query) for query in case.queries] for case in second] == outcomes
+    assert [[at_hand[query] for query in case.queries] for case in second] == outcomes
 
 
 def test_a_wrong_answer_is_no_measurement(monkeypatch: pytest.MonkeyPatch) -> None:
