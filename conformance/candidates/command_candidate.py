@@ -142,10 +142,9 @@ class CommandCandidate:
 
     def _fill(self, session: Session) -> None:
         """Send what waits, as far as the window allows."""
-        declared = session.capabilities
         while self._waiting and len(self._sent) < WINDOW:
             query = self._waiting.popleft()
-            refusal = undeclared(query, declared.ops, declared.features)
+            refusal = undeclared(query, session.ops, session.features)
             if refusal is None:
                 self._send(session, query)
             else:

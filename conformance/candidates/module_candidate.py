@@ -16,7 +16,7 @@ from conformance.protocol.replies import BadReplyError
 from conformance.query import Errored, Result, Skipped
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Collection
+    from collections.abc import Callable
 
     from conformance.query import Outcome, Query
 
@@ -47,8 +47,8 @@ class ModuleCandidate:
         if not callable(getattr(made, "answer", None)):
             raise FactoryError(f"{self.name} made {made!r}, expected an object with answer(query)")
         self._answer: Callable[[Query], object] = made.answer
-        self._ops: Collection[str] = getattr(made, "ops", OUTPUTS)
-        self._features: Collection[str] = getattr(made, "features", FEATURES)
+        self._ops = frozenset(getattr(made, "ops", OUTPUTS))
+        self._features = frozenset(getattr(made, "features", FEATURES))
 
     def __repr__(self) -> str:
         return f"ModuleCandidate({self.name.removeprefix(MODULE_PREFIX)!r})"

@@ -8,7 +8,8 @@ from typing import TYPE_CHECKING, Any, Final
 from conformance.query import Skipped
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Collection, Mapping
+    from collections.abc import Callable, Mapping
+    from collections.abc import Set as AbstractSet
 
     from conformance.query import Query
 
@@ -52,11 +53,11 @@ _OF_KEY: Final[Mapping[str, tuple[str, Callable[[Any], bool]]]] = {
 """The feature that a key of inputs asks for, wherever it stands, and for which values."""
 
 
-def undeclared(query: Query, ops: Collection[str], features: Collection[str]) -> Skipped | None:
+def undeclared(query: Query, ops: AbstractSet[str], features: AbstractSet[str]) -> Skipped | None:
     """Return why an engine is not asked a query: it has not declared the operation, or a feature of it."""
     if query.op not in ops:
         return Skipped(f"operation {query.op} is not declared")
-    if all(name in features for name in FEATURES):
+    if features >= FEATURES.keys():
         return None
     missing = next((name for name in needed_features(query.inputs) if name not in features), None)
     return None if missing is None else Skipped(f"feature {missing} is not declared ({FEATURES[missing]})")

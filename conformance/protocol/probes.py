@@ -58,6 +58,6 @@ def _is_new(
     return (
         len(known) < MOST_PROBES
         and record.uncertain is None
-        and undeclared(record.query, capabilities.ops, capabilities.features) is None
+        and undeclared(record.query, set(capabilities.ops), set(capabilities.features)) is None
         and all(record.expected != other.expected for other in known)
     )

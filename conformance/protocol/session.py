@@ -43,6 +43,8 @@ class Session:
     ----------
     capabilities : Capabilities
         What it says about itself.
+    ops, features : frozenset of str
+        What it has declared, to be looked up for each query.
 
     Raises
     ------
@@ -61,6 +63,8 @@ class Session:
         except BaseException:
             self._process.kill()
             raise
+        self.ops = frozenset(self.capabilities.ops)
+        self.features = frozenset(self.capabilities.features)
 
     def number(self) -> int:
         """Return the number of the next message."""

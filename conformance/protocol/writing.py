@@ -7,6 +7,7 @@ and keys and numbers that have been written before are remembered.
 from __future__ import annotations
 
 import functools
+from collections import OrderedDict
 from json.encoder import encode_basestring
 from types import NoneType
 from typing import TYPE_CHECKING, Any, Final
@@ -25,6 +26,10 @@ if TYPE_CHECKING:
 
 _MOST_KEYS: Final = 1 << 12
 """Keys whose texts are remembered; FORMAT.md has some hundred."""
+_SHARED: Final = frozenset({"heights", "mover", "path", "polygon", "ticks"})
+"""Keys of large blocks and lists that the poses of a case have in common: a third of what is written."""
+_MOST_SHARED: Final = 1 << 6
+"""Texts of those that are remembered: those of a case, not those of all cases."""
 
 
 def inputs_text(value: Any, dialect: Dialect) -> str:
@@ -55,14 +60,16 @@ class _Writers(dict[type, "Write"]):
 class _Heads(dict[str, "tuple[str, _Writers]"]):
     """What stands before the value of a key, and how the value is written."""
 
-    def __init__(self, singles: _Writers, doubles: _Writers) -> None:
+    def __init__(self, singles: _Writers, doubles: _Writers, shared: _Writers) -> None:
         super().__init__()
         self._writers = singles, doubles
+        self._shared = shared
 
     def __missing__(self, key: str) -> tuple[str, _Writers]:
         if len(self) >= _MOST_KEYS:
             self.clear()
-        head = self[key] = f"{encode_basestring(key)}:", self._writers[is_float64_input(key)]
+        writers = self._shared if key in _SHARED else self._writers[is_float64_input(key)]
+        head = self[key] = f"{encode_basestring(key)}:", writers
         return head
 
 
@@ -75,13 +82,32 @@ def _writers(dialect: Dialect) -> _Writers:
         bool: lambda value: "true" if value else "false",
         NoneType: lambda _value: "null",
     }
-    singles, doubles = _Writers(plain), _Writers(plain)
-    blocks = _block_writer(_Heads(singles, doubles))
+    singles, doubles, shared = _Writers(plain), _Writers(plain), _Writers(plain)
+    blocks = _block_writer(_Heads(singles, doubles, shared))
     singles |= {dict: blocks, float: _single_writer(dialect)}
     doubles |= {dict: blocks, float: lambda value: text_of(spell_double(value, dialect))}
     singles[list] = singles[tuple] = _list_writer(singles, _singles_writer(dialect))
     doubles[list] = doubles[tuple] = _list_writer(doubles, functools.partial(map, doubles[float]))
+    shared |= singles
+    shared |= {kind: _remembered(singles[kind]) for kind in (dict, list, tuple)}
     return singles
+
+
+def _remembered(write: Write) -> Write:
+    """Return a writer that knows a value again by its identity: inputs do not change.
+
+    What is remembered is held with its text, so that nothing else can have its identity.
+    """
+    known: OrderedDict[int, tuple[Any, str]] = OrderedDict()
+
+    def write_once(value: Any) -> str:
+        if id(value) not in known:
+            known[id(value)] = value, write(value)
+            if len(known) > _MOST_SHARED:
+                known.popitem(last=False)
+        return known[id(value)][1]
+
+    return write_once
 
 
 def _block_writer(heads: _Heads) -> Write:

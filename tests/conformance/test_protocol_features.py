@@ -57,8 +57,8 @@ def test_the_shipped_records_need_each_feature() -> None:
 def test_what_is_missing_is_named() -> None:
     """First the operation, then the feature with its meaning; a query with all it needs is asked."""
     query = Query("transition", {**NEEDS["scale"], "from": None})
-    assert undeclared(query, (), FEATURES) == Skipped("operation transition is not declared")
+    assert undeclared(query, frozenset(), FEATURES.keys()) == Skipped("operation transition is not declared")
     missing = Skipped(f"feature placement is not declared ({FEATURES['placement']})")
-    assert undeclared(query, ("transition",), ("scale",)) == missing
-    assert undeclared(query, ("transition",), ("scale", "placement")) is None
-    assert undeclared(query, ("transition",), FEATURES) is None
+    assert undeclared(query, {"transition"}, {"scale"}) == missing
+    assert undeclared(query, {"transition"}, {"scale", "placement"}) is None
+    assert undeclared(query, {"transition"}, FEATURES.keys()) is None

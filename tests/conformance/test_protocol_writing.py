@@ -56,6 +56,19 @@ def test_the_inputs_of_every_operation_come_back(dialect: Any) -> None:
         assert plainly(read) == plainly(dict(record.query.inputs))
 
 
+@pytest.mark.parametrize("dialect", DIALECTS)
+def test_blocks_that_poses_share_are_written_as_any_other(dialect: Any) -> None:
+    """Remembered by identity: equal blocks with zeros of another sign stay apart, long after."""
+    movers = [{"spheres": [[0.0, zero, 1.0, 0.5]]} for zero in (0.0, -0.0) * 50]
+    texts = [inputs_text({"mover": mover, "world": {"heights": [mover]}}, dialect) for mover in movers]
+    again = [inputs_text({"mover": mover, "world": {"heights": [mover]}}, dialect) for mover in movers]
+    assert texts == again
+    assert [text.replace("mover", "m").replace("heights", "h") for text in texts] == [
+        inputs_text({"m": mover, "world": {"h": [mover]}}, dialect) for mover in movers
+    ]
+    assert len(set(texts)) == 2
+
+
 def test_what_is_not_finite_is_a_text() -> None:
     """JSON has no number for it."""
     numbers = [math.nan, math.inf, -math.inf]
