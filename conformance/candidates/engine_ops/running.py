@@ -6,6 +6,7 @@ Both runs have to give the same answer: every transition of the suite tests ever
 
 from __future__ import annotations
 
+import functools
 from typing import TYPE_CHECKING, Any, Final
 
 import numpy as np
@@ -22,6 +23,8 @@ from engine.threads import new_share
 from engine.tracing import runnable
 
 if TYPE_CHECKING:
+    import numpy.typing as npt
+
     from engine.world import World
 
 WORK_FIELDS: Final = frozenset(
@@ -92,9 +95,25 @@ def demand_same_answer(short: Any, full: Any) -> None:
     ShortcutError
         Naming the first field that differs in a bit.
     """
+    if _answer_bytes(short) == _answer_bytes(full):  # nearly always, and at once
+        return
     for name in short.dtype.names:
         if name not in WORK_FIELDS and short[name].tobytes() != full[name].tobytes():
             raise ShortcutError(name, short[name], full[name])
+
+
+def _answer_bytes(record: Any) -> bytes:
+    """Return what a record holds beside counters of work and the gaps between its fields."""
+    return np.frombuffer(record.tobytes(), np.uint8)[_answer_places(record.dtype)].tobytes()
+
+
+@functools.cache
+def _answer_places(dtype: np.dtype[np.void]) -> npt.NDArray[np.bool_]:
+    """Tell of each byte of a record whether it belongs to the answer."""
+    places = np.zeros(dtype.itemsize, dtype=np.bool_)
+    for name, (field, offset, *_) in (dtype.fields or {}).items():
+        places[offset : offset + field.itemsize] = name not in WORK_FIELDS
+    return places
 
 
 def demand_same(field: str, short: Any, full: Any) -> None:
