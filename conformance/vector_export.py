@@ -8,6 +8,7 @@ import math
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any, Final
 
+from conformance.files import write_bytes, write_text
 from conformance.floats import shortest32
 from conformance.inputs import is_float64_input
 from conformance.outputs import OUTPUTS
@@ -15,7 +16,7 @@ from conformance.shapes import Block, Kind, Listing, Nullable, Scalar
 from conformance.vector_library import GEOMETRY_FILES, WORLD_FILE, Library
 
 if TYPE_CHECKING:
-    from collections.abc import Iterable, Mapping
+    from collections.abc import Iterable, Mapping, Sequence
     from pathlib import Path
 
     from conformance.query import Fields, Query
@@ -25,6 +26,16 @@ if TYPE_CHECKING:
 _DIGEST_DIGITS: Final = 8
 """Hexadecimal digits of a geometry's or a world's digest in its name: enough for thousands of them."""
 _SEPARATORS: Final = (",", ":")
+
+
+class UnsuitablePlaceError(ValueError):
+    """Something that is no file, where a file and others beside it are to be written."""
+
+    def __init__(self, path: Path) -> None:
+        beside = " and ".join([GEOMETRY_FILES[0], WORLD_FILE])
+        super().__init__(
+            f"found {path}, which is not a file, expected a file to write, in a folder for {beside}, too"
+        )
 
 
 def write_vectors(path: Path, records: Iterable[tuple[str, Query, Fields]]) -> int:
@@ -47,22 +58,35 @@ def write_vectors(path: Path, records: Iterable[tuple[str, Query, Fields]]) -> i
 
     Raises
     ------
+    UnsuitablePlaceError
+        If `path` is there and is not a file; at once, as the next one.
     VectorError
         If the folder already has a shared file that cannot be read.
+    OSError
+        If something cannot be written.
     """
+    known_geometries, known_worlds = _names_beside(path)
     shared = _Shared({}, {})
     lines = [_record(record_id, query, fields, shared) for record_id, query, fields in records]
+    new = [geometry for name, geometry in shared.geometries.items() if name not in known_geometries]
+    worlds = [world for name, world in shared.worlds.items() if name not in known_worlds]
+    _add_lines(path.parent / GEOMETRY_FILES[0], new)
+    if worlds:
+        _add_lines(path.parent / WORLD_FILE, worlds)
+    write_text(path, _text_of(lines))
+    return len(lines)
+
+
+def _names_beside(path: Path) -> tuple[set[str], set[str]]:
+    """Return the geometries and worlds that a file's folder has already, before anything long is begun."""
+    if path.exists() and not path.is_file():
+        raise UnsuitablePlaceError(path)
     path.parent.mkdir(parents=True, exist_ok=True)
     library = Library(path.parent)
-    new = [geometry for name, geometry in shared.geometries.items() if name not in library.geometries]
-    worlds = [world for name, world in shared.worlds.items() if name not in library.worlds]
+    names = set(library.geometries), set(library.worlds)
     if library.errors:
         raise library.errors[0]
-    _write_lines(path.parent / GEOMETRY_FILES[0], new, mode="a")
-    if worlds:
-        _write_lines(path.parent / WORLD_FILE, worlds, mode="a")
-    _write_lines(path, lines, mode="w")
-    return len(lines)
+    return names
 
 
 def geometry_record(geometry: Geometry) -> dict[str, Any]:
@@ -153,7 +177,15 @@ def _printable(value: float) -> float | str:
     return value if math.isfinite(value) else str(value)
 
 
-def _write_lines(path: Path, records: Iterable[Mapping[str, Any]], *, mode: str) -> None:
-    with path.open(mode, encoding="utf-8", newline="\n") as file:
-        for record in records:
-            file.write(json.dumps(record, separators=_SEPARATORS, ensure_ascii=False) + "\n")
+def _add_lines(path: Path, records: Sequence[Mapping[str, Any]]) -> None:
+    """Add to a shared file; it is replaced whole, so that a full disk leaves no half of a record in it."""
+    before = path.read_bytes() if path.exists() else b""
+    if before and not before.endswith(b"\n"):
+        before += b"\n"
+    write_bytes(path, before + _text_of(records).encode())
+
+
+def _text_of(records: Sequence[Mapping[str, Any]]) -> str:
+    return "".join(
+        json.dumps(record, separators=_SEPARATORS, ensure_ascii=False) + "\n" for record in records
+    )

@@ -11,7 +11,7 @@ from conformance.commands.options import UsageError
 if TYPE_CHECKING:
     import argparse
     from collections import Counter
-    from collections.abc import Iterable, Iterator
+    from collections.abc import Callable, Iterator, Sequence
 
     from conformance.loader import Case, Loaded
     from conformance.query import Fields, Query
@@ -44,13 +44,19 @@ def run(args: argparse.Namespace) -> int:
     """Write the file and return the exit code: 1 if a case could not be written, 4 if none was."""
     from collections import Counter
 
-    from conformance.console import make_console
-    from conformance.vector_export import write_vectors
+    from conformance.console import Progress, make_console
+    from conformance.vector_errors import VectorError
+    from conformance.vector_export import UnsuitablePlaceError, write_vectors
 
     console = make_console()
-    loaded = _load(args)
     unanswered: Counter[str] = Counter()
-    written = write_vectors(args.output, _answers(loaded.cases, unanswered))
+    with Progress() as progress:
+        progress.say("reading cases")
+        loaded = _load(args)
+        try:
+            written = write_vectors(args.output, _answers(loaded.cases, unanswered, progress.say))
+        except (UnsuitablePlaceError, VectorError) as error:
+            raise UsageError(str(error)) from error
     for problem in loaded.problems:
         console.print(str(problem), style="red")
     for reason, count in sorted(unanswered.items()):
@@ -70,12 +76,15 @@ def _load(args: argparse.Namespace) -> Loaded:
         raise UsageError(str(error)) from error
 
 
-def _answers(cases: Iterable[Case], unanswered: Counter[str]) -> Iterator[tuple[str, Query, Fields]]:
+def _answers(
+    cases: Sequence[Case], unanswered: Counter[str], say: Callable[[str], None]
+) -> Iterator[tuple[str, Query, Fields]]:
     from conformance.candidates.registry import make_candidate
     from conformance.query import Result, Skipped
 
     oracle = make_candidate("oracle")
-    for case in cases:
+    for number, case in enumerate(cases, start=1):
+        say(f"retail's answers: case {number} of {len(cases)}")
         for query in case.queries:
             outcome = oracle.answer(query)
             if isinstance(outcome, Result):

@@ -20,7 +20,7 @@ from conformance.vector_errors import (
     MissingGeometryError,
     VectorError,
 )
-from conformance.vector_export import geometry_record, write_vectors
+from conformance.vector_export import UnsuitablePlaceError, geometry_record, write_vectors
 from conformance.vector_io import VectorRecord, query_from_record, read_vectors
 from conformance.vector_library import Library
 
@@ -252,6 +252,26 @@ def test_writing_beside_a_broken_geometry_file(tmp_path: Path) -> None:
     with pytest.raises(MalformedLineError):
         write_vectors(tmp_path / "out.jsonl", [(record.id, record.query, record.expected)])
     assert not (tmp_path / "out.jsonl").exists()
+
+
+def test_what_is_no_file_is_refused_before_anything_is_asked(tmp_path: Path) -> None:
+    """A folder or a device has no room for shared files beside it."""
+    never = (pytest.fail("the queries were asked") for _ in range(1))
+    folder = tmp_path / "folder.jsonl"
+    folder.mkdir()
+    with pytest.raises(UnsuitablePlaceError, match=r"^found .*folder\.jsonl, which is not a file, expected"):
+        write_vectors(folder, never)
+    assert list(tmp_path.iterdir()) == [folder]
+
+
+def test_a_last_line_without_an_end_is_added_to_nevertheless(tmp_path: Path) -> None:
+    """Two records never share a line."""
+    first, second = records(VECTORS / "find_collisions.jsonl")[:2], records(VECTORS / "polygon.jsonl")[:1]
+    write_vectors(tmp_path / "one.jsonl", [(r.id, r.query, r.expected) for r in first])
+    shared = tmp_path / "geometries.jsonl"
+    shared.write_bytes(shared.read_bytes().rstrip(b"\n"))
+    write_vectors(tmp_path / "two.jsonl", [(r.id, r.query, r.expected) for r in second])
+    assert read(tmp_path / "two.jsonl")
 
 
 def test_numbers_are_written_short(tmp_path: Path) -> None:
