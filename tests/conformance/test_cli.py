@@ -18,6 +18,7 @@ if TYPE_CHECKING:
 
     from conformance.query import Outcome, Query
 
+CASES = Path(__file__).parents[2] / "conformance" / "cases"
 MATH = VECTORS / "math.jsonl"
 SEED_BUG = ("--id", "fc_00001", "--id", "fc_00002", "--candidate", "bug:cell-origin")
 
@@ -243,7 +244,8 @@ def test_lint_points_at_mistakes(tmp_path: Path, capsys: pytest.CaptureFixture[s
 def test_export_writes_what_verify_reads(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     """Cases become vectors with retail's answers, which the oracle then meets and a bug does not."""
     path = tmp_path / "cases.jsonl"
-    code, lines = run(capsys, "export", "--poses", 1, "-o", path)
+    folders = [CASES / "contact-plane", CASES / "worlds"]
+    code, lines = run(capsys, "export", *folders, "--poses", 1, "-o", path)
     assert code == 0
     written = int(lines[-1].split()[0])
     assert written > 60
