@@ -102,7 +102,10 @@ def _suggest(args: argparse.Namespace) -> int:
         sys.stdout.write(text)
     else:
         write_text(args.output, text)
-    sys.stderr.write(f"{len(failures)} failing cases; {compared} queries compared\n")
+    cases = f"{len(failures)} failing case{'' if len(failures) == 1 else 's'}"
+    sys.stderr.write(f"{cases}; {compared} queries compared\n")
+    if failures and args.output is not None:
+        sys.stderr.write(f"the draft has no reasons: conformance lint --deviations {args.output}\n")
     return exit_codes.OK if compared or failures else exit_codes.NOTHING_RAN
 
 

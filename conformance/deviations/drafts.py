@@ -18,6 +18,10 @@ MOST_ULPS: Final = 64
 """Up to here a bound is drafted in steps of the float format, beyond in the field's own unit."""
 MOST_VALUES: Final = 4
 """Most different values of one field that are drafted, each as an entry of its own."""
+_HEAD: Final = """\
+# A draft: mend the engine, or fill in of each entry the reason, a link to where it is discussed, and the last
+# day on which it holds. `conformance lint --deviations FILE` says what is missing.
+"""
 _DIGITS: Final = 2
 """Significant digits of a drafted bound, rounded up."""
 
@@ -42,8 +46,9 @@ def draft(failures: Mapping[str, Sequence[Failure]], *, engine: str) -> str:
     lines = [f"engine: {json.dumps(engine)}"]
     if not failures:
         return "\n".join([*lines, "deviations: []"]) + "\n"
-    lines += ["deviations:"]
+    lines = [_HEAD + lines[0], "deviations:"]
     for case_id, found in failures.items():
+        lines += [f"  # {printable(found[0].summary)}"]
         for entry in entries_for(case_id, found):
             lines += ["  - " + "\n    ".join(_yaml_lines(entry))]
     return "\n".join(lines) + "\n"
@@ -79,6 +84,11 @@ def _rounded_up(value: float) -> float:
     scale = 10.0 ** (math.floor(math.log10(value)) - _DIGITS + 1)
     rounded = float(f"{math.ceil(value / scale) * scale:.{_DIGITS - 1}e}")
     return rounded if rounded >= value else float(f"{rounded + scale:.{_DIGITS - 1}e}")
+
+
+def printable(text: str) -> str:
+    """Return a text as it may stand in a comment of YAML, which has no room for control characters."""
+    return "".join(char if char.isprintable() else "?" for char in text)
 
 
 def _yaml_lines(entry: Mapping[str, Any]) -> list[str]:

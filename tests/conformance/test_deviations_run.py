@@ -7,13 +7,13 @@ from pathlib import Path
 import pytest
 from deviation_files import FAILING, ORIGIN, deviation_file
 
-from conformance import profiles
+from conformance import loader, profiles
 from conformance.cli import main
 
 pytest_plugins = ["pytester"]
 
-IMPORTED = profiles
-"""A run within this process forgets what it imports; half of hypothesis cannot be imported a second time."""
+IMPORTED = loader, profiles
+"""A run within this process forgets what it imports; NumPy and hypothesis cannot be imported a second time."""
 ROOT = Path(__file__).parents[2]
 BUG = ("--candidate", "bug:cell-origin")
 COUNTS = "conformance: 2 cases, 2 queries compared, 0 skipped, 0 random queries"
@@ -116,7 +116,15 @@ def test_a_suggestion(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> Non
     draft = tmp_path / "draft.yaml"
     asked = ["deviations", "--suggest", "--cases", str(ORIGIN), "--poses", "0"]
     assert main([*asked, *BUG, "-o", str(draft)]) == 0
-    assert draft.read_text(encoding="utf-8").splitlines()[2:] == [
+    told = capsys.readouterr().err.splitlines()
+    assert [line.split(";")[0] for line in told[:-1]] == ["1 failing case"]
+    assert told[-1] == f"the draft has no reasons: conformance lint --deviations {draft}"
+    lines = draft.read_text(encoding="utf-8").splitlines()
+    assert lines[0].startswith("# A draft: ")
+    assert lines[2:] == [
+        'engine: "bug:cell-origin"',
+        "deviations:",
+        "  # contact_plane.d: retail -94.0 (0xC2BC0000), bug:cell-origin -0.0 (0x80000000), 1.1e9 ULPs",
         f'  - case: "{FAILING}"',
         '    field: "contact_plane.d"',
         '    observed: "-0.0 (0x80000000)"',
