@@ -19,6 +19,8 @@ from conformance.protocol.replies import BadReplyError, read_reply
 if TYPE_CHECKING:
     from collections.abc import Collection
 
+    from pydantic_core import ErrorDetails
+
 READ_SECONDS: Final = 30.0
 """How long an engine may take for a reply, unless it is told otherwise."""
 START_READS: Final = 4
@@ -157,7 +159,7 @@ def read_capabilities(result: dict[str, Any]) -> Capabilities:
         first = error.errors()[0]
         where = ".".join(str(part) for part in ("result", *first["loc"]))
         found = "nothing" if first["type"] == "missing" else repr(first["input"])[:80]
-        raise BadReplyError(f"{found} at {where}", first["msg"]) from None
+        raise BadReplyError(f"{found} at {where}", _expected_field(first)) from None
     if capabilities.version != VERSION:
         raise BadReplyError(f"version {capabilities.version}", f"version {VERSION}")
     for op in capabilities.ops:
@@ -167,6 +169,17 @@ def read_capabilities(result: dict[str, Any]) -> Capabilities:
         if feature not in FEATURES:
             raise BadReplyError(f"the feature {feature!r}", _expected_feature(feature, FEATURES))
     return capabilities
+
+
+def _expected_field(error: ErrorDetails) -> str:
+    """Say what a field of the capabilities must be, in the words of the other messages."""
+    match error["type"]:
+        case "missing":
+            return "a value"
+        case "extra_forbidden":
+            return f"one of {', '.join(Capabilities.model_fields)}"
+        case _:
+            return error["msg"].removeprefix("Input should be ")
 
 
 def _expected_feature(feature: str, known: Collection[str]) -> str:

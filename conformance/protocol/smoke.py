@@ -33,6 +33,7 @@ EXAMPLE_START: Final = (
     '"ops":["polygon_make_plane"],"features":[]}}'
 )
 _UNKNOWN_OP: Final = "no_such_operation"
+_EACH_REPLY: Final = "one whole line for each message, in order"
 _MOST_EXAMPLE: Final = 400
 """Characters of an expected reply that are shown."""
 
@@ -94,12 +95,17 @@ def examine(
         yield from examination.findings(say, vectors)
 
 
+class _SecondStartError(Exception):
+    """An engine that could be started, and cannot be started again."""
+
+
 class _Examination:
     def __init__(self, command: str, read_timeout: float) -> None:
         self._command = command
         self._timeout = read_timeout
         self._session = Session(command, read_timeout)
         self._slots = SceneSlots()
+        self._told: set[str] = set()
 
     def __enter__(self) -> Self:
         return self
@@ -115,26 +121,41 @@ class _Examination:
             yield Finding(Mark.WRONG, "handshake", "no operation is declared", EXAMPLE_START)
             return
         probes = find_probes(said, say, vectors)
-        steps: tuple[Callable[[], Iterator[Finding]], ...] = (
-            lambda: self._operations(probes),
-            lambda: self._stale(probes),
-            lambda: self._replaced_scene(probes),
-            lambda: self._batch(probes),
-            self._unknown_operation,
-            self._stop,
-            self._end_of_input,
+        steps: tuple[tuple[str, Callable[[], Iterator[Finding]], str], ...] = (
+            ("operations", lambda: self._operations(probes), _EACH_REPLY),
+            ("fresh answers", lambda: self._stale(probes), _EACH_REPLY),
+            ("scenes", lambda: self._replaced_scene(probes), _EACH_REPLY),
+            ("batch", lambda: self._batch(probes), _EACH_REPLY),
+            ("unknown operation", self._unknown_operation, _EACH_REPLY),
+            ("stop", self._stop, "one reply, nothing after it, and exit status 0"),
+            ("end of stdin", self._end_of_input, "silence, and the end of the process"),
         )
-        for step in steps:
-            try:
-                yield from step()
-            except EngineTroubleError as error:
-                yield Finding(Mark.WRONG, "reply", str(error), "one whole line for each message, in order")
-                self._restart()
+        try:
+            for step_name, step, expected in steps:
+                yield from self._taken(step_name, step, expected)
+        except _SecondStartError as error:
+            yield Finding(Mark.WRONG, "handshake", str(error), EXAMPLE_START)
 
-    def _restart(self) -> None:
+    def _taken(self, name: str, step: Callable[[], Iterator[Finding]], expected: str) -> Iterator[Finding]:
+        """Take a step; a fault that was told before is not told again."""
+        try:
+            yield from step()
+        except EngineTroubleError as error:
+            if str(error) in self._told:
+                yield Finding(Mark.NOTE, name, "not seen: the engine fails as above")
+            else:
+                self._told.add(str(error))
+                yield Finding(Mark.WRONG, name, str(error), expected)
+            self._restart(error)
+
+    def _restart(self, after: EngineTroubleError) -> None:
         self._session.kill()
-        self._session = Session(self._command, self._timeout)
         self._slots.clear()
+        try:
+            self._session = Session(self._command, self._timeout)
+        except EngineTroubleError as error:
+            again = str(error).removeprefix("handshake: ")
+            raise _SecondStartError(f"{after.what}; started anew: {again}") from error
 
     def _operations(self, probes: Mapping[str, list[VectorRecord]]) -> Iterator[Finding]:
         """Ask each operation alone."""
@@ -155,7 +176,8 @@ class _Examination:
             else:
                 yield found
         mark = Mark.OK if right else Mark.NOTE
-        yield Finding(mark, "operations", f"{len(right)} answer as retail does: {', '.join(right)}")
+        count = f"{len(right)} of {len(declared) - len(unasked)}"
+        yield Finding(mark, "operations", f"{count} answer as retail does: {', '.join(right) or 'none'}")
 
     def _operation(self, record: VectorRecord) -> Finding | None:
         op = record.query.op
@@ -165,7 +187,8 @@ class _Examination:
         except BadReplyError as error:
             return Finding(Mark.WRONG, op, str(error), example)
         except EngineTroubleError as error:
-            self._restart()
+            self._told.add(str(error))
+            self._restart(error)
             return Finding(Mark.WRONG, op, str(error), example)
         match outcome:
             case Skipped(reason):

@@ -13,7 +13,7 @@ from conformance.cli import main
 pytest_plugins = ["pytester"]
 
 IMPORTED = loader, profiles
-"""A run within this process forgets what it imports; NumPy and hypothesis cannot be imported a second time."""
+"""A run within this process forgets what it imports; NumPy and hypothesis cannot be imported again."""
 ROOT = Path(__file__).parents[2]
 BUG = ("--candidate", "bug:cell-origin")
 COUNTS = "conformance: 2 cases, 2 queries compared, 0 skipped, 0 random queries"

@@ -46,8 +46,8 @@ BAD_STARTS = {
     "version": r"handshake: bad reply: found version 2, expected version 1",
     "unknown-op": r"found unknown operation 'block_ofset' \(did you mean 'block_offset'\?\)",
     "unknown-feature": r"found the feature 'two-sphere', expected perhaps 'two-spheres'; features are ",
-    "extra-claim": r"found 'fast' at result.speed, expected Extra inputs are not permitted",
-    "bad-claim": r"found 'all' at result.ops, expected Input should be a valid list",
+    "extra-claim": r"found 'fast' at result.speed, expected one of version, name, floats, ops, features",
+    "bad-claim": r"found 'all' at result.ops, expected a valid list",
     "refuses": r"handshake: the engine refuses to start: \{'context': 'no licence'\}",
 }
 """What is recorded for every query of an engine that introduces itself badly."""

@@ -3,10 +3,11 @@
 from __future__ import annotations
 
 import json
+import sys
 from typing import TYPE_CHECKING
 
 import pytest
-from faux import SECONDS, command_of, faux_command, queries, right, serve_command
+from faux import ENGINE, SECONDS, command_of, faux_command, queries, right, serve_command
 from shipped_vectors import VECTORS
 
 from conformance.cli import main
@@ -62,7 +63,7 @@ def test_a_good_bridge(vectors: Path) -> None:
         ("ok", "end of stdin"),
     ]
     assert findings[0].said == "faux 1.0: 1 operations, 0 features, floats decimal"
-    assert findings[1].said == "1 answer as retail does: block_offset"
+    assert findings[1].said == "1 of 1 answer as retail does: block_offset"
 
 
 def test_our_own_bridge_holds_scenes(with_scenes: Path) -> None:
@@ -82,8 +83,8 @@ def test_our_own_bridge_holds_scenes(with_scenes: Path) -> None:
         ("no-ops", "handshake", "no operation is declared"),
         ("unknown-op", "handshake", "bad reply: found unknown operation 'block_ofset'"),
         ("previous", "fresh answers", "block_offset: q2 has the answer of q1, which was asked before"),
-        ("sour", "reply", "the engine ended with exit status 4 when it was stopped, expected 0"),
-        ("chatty", "reply", "the engine writes on after its last reply: b'bye"),
+        ("sour", "stop", "the engine ended with exit status 4 when it was stopped, expected 0"),
+        ("chatty", "stop", "the engine writes on after its last reply: b'bye"),
     ],
 )
 def test_what_is_wrong_is_told(mode: str, step: str, said: str, vectors: Path) -> None:
@@ -135,6 +136,27 @@ def test_a_bad_reply_is_told_with_its_operation(mode: str, said: str, vectors: P
     first = next(found for found in findings if found.mark is Mark.WRONG)
     assert (first.step, first.said[: len(said)]) == ("block_offset", said)
     assert first.expected == 'to q3, beside its seq: {"result":{"v":[576.0,0.0,0.0]}}'
+
+
+def test_a_fault_is_told_once(vectors: Path) -> None:
+    """The steps after it say that they have seen nothing else."""
+    findings = smoked(f"{faux_command('crash')} 3", vectors)
+    said = [what for _, what in wrong(findings)]
+    assert len(said) == len(set(said))
+    assert Finding(Mark.NOTE, "batch", "not seen: the engine fails as above") in findings
+
+
+def test_an_engine_that_starts_only_once(vectors: Path, tmp_path: Path) -> None:
+    """As one that leaves a lock behind: why it was started anew is told, and the examination ends."""
+    once = "import pathlib, runpy, sys; pathlib.Path(sys.argv.pop(1)).touch(exist_ok=False); "
+    once += "runpy.run_path(sys.argv.pop(1))"
+    words = (sys.executable, "-I", "-S", "-c", once, tmp_path / "lock", ENGINE, "crash", 1)
+    findings = smoked(command_of(*words), vectors)
+    assert (findings[-1].mark, findings[-1].step) == (Mark.WRONG, "handshake")
+    assert findings[-1].said.startswith(
+        "the engine ended with exit status 3 before it replied; "
+        "started anew: the engine ended with exit status 1 before it replied"
+    )
 
 
 def test_a_difference_is_a_note(vectors: Path) -> None:
