@@ -43,9 +43,8 @@ def run(args: argparse.Namespace) -> int:
             changed += bool(line) and not is_bad
             failed += is_bad
     what = "would change" if args.check else "changed"
-    console.print(
-        f"{len(files)} files, {changed} {what}" + (f", {failed} cannot be laid out" if failed else "")
-    )
+    count = f"{len(files)} file{'' if len(files) == 1 else 's'}"
+    console.print(f"{count}, {changed} {what}" + (f", {failed} cannot be laid out" if failed else ""))
     return exit_codes.FAILURES if failed or (args.check and changed) else exit_codes.OK
 
 

@@ -267,7 +267,7 @@ def _run(
 
 
 def _show(console: Console, run: GateRun, folder: Path) -> None:
-    from conformance.gate.outcome import VERDICTS, Status
+    from conformance.gate.outcome import VERDICTS, Stage, Status
 
     for stage in run.asked:
         counts = run.counts(stage)
@@ -281,6 +281,8 @@ def _show(console: Console, run: GateRun, folder: Path) -> None:
             console.print(f"  {check.name}: {check.message}", style="red")
         if len(wrong) > _MOST_SHOWN:
             console.print(f"  ... and {len(wrong) - _MOST_SHOWN} more")
+        if wrong and stage is Stage.CASES and run.report:
+            console.print(f"  every field, the source and the scene: {folder / 'report.html'}")
     for note in run.notes:
         console.print(note, style="yellow")
     for stage in run.empty_stages:

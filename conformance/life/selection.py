@@ -97,7 +97,7 @@ def count(cases: Iterable[Case], kind: str) -> list[tuple[str, int]]:
 
 
 def hints(cases: Sequence[Case], filters: Filters) -> list[str]:
-    """Say of every word that no case at all has what comes nearest to it."""
+    """Say of every word that no case at all has what comes nearest to it, or where to look."""
     asked = (("tag", filters.tags), ("function", filters.functions), ("op", filters.ops))
     told: list[str] = []
     for kind, names in asked:
@@ -106,7 +106,8 @@ def hints(cases: Sequence[Case], filters: Filters) -> list[str]:
         for name in names:
             if name not in known | short:
                 near = nearest(name, sorted(known | short))
-                told.append(f"no case has the {kind} {name!r}" + (f": {near}" if near else ""))
+                there_is = near or f"`conformance list --count {kind}` says what there is"
+                told.append(f"no case has the {kind} {name!r}: {there_is}")
     return told
 
 

@@ -140,13 +140,13 @@ def test_files_are_changed_once(tmp_path: Path, capsys: pytest.CaptureFixture[st
     file = tmp_path / "a.yaml"
     file.write_text(UNTIDY, encoding="utf-8")
     assert cli.main(["fmt", "--check", str(tmp_path)]) == exit_codes.FAILURES
-    assert capsys.readouterr().out.splitlines() == [f"{file}: would change", "1 files, 1 would change"]
+    assert capsys.readouterr().out.splitlines() == [f"{file}: would change", "1 file, 1 would change"]
     assert file.read_text(encoding="utf-8") == UNTIDY
     assert cli.main(["fmt", str(tmp_path)]) == exit_codes.OK
-    assert capsys.readouterr().out.splitlines() == [f"{file}: changed", "1 files, 1 changed"]
+    assert capsys.readouterr().out.splitlines() == [f"{file}: changed", "1 file, 1 changed"]
     assert file.read_bytes() == TIDY.encode("utf-8")
     assert cli.main(["fmt", "--check", str(tmp_path)]) == exit_codes.OK
-    assert capsys.readouterr().out == "1 files, 0 would change\n"
+    assert capsys.readouterr().out == "1 file, 0 would change\n"
 
 
 def test_a_file_that_cannot_be_read_is_told(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:

@@ -154,6 +154,7 @@ def test_a_bug_does_not(gate: Gate, capsys: pytest.CaptureFixture[str]) -> None:
     assert gate("--case", FAILING, candidate="bug:cell-origin") == exit_codes.FAILURES
     out = capsys.readouterr().out
     assert f"  {FAILING}: {FAILING}: contact_plane.d: retail -94.0" in out
+    assert f"  every field, the source and the scene: {gate.evidence / 'report.html'}\n" in out
     assert "nothing was shown" not in out
     assert FAILING in (gate.evidence / "report.html").read_text(encoding="utf-8")
     assert gate.summary()["verdict"] == "disagreement"

@@ -86,6 +86,7 @@ def test_cases_are_counted_by_operation(capsys: pytest.CaptureFixture[str]) -> N
     ("filters", "complaint"),
     [
         (("--tag", "stepdown"), "no case has the tag 'stepdown': did you mean 'step-down'?"),
+        (("--op", "zzz"), "no case has the op 'zzz': `conformance list --count op` says what there is"),
         (("--op", "find_colisions"), "no case has the op 'find_colisions': did you mean 'find_collisions'?"),
         (("--path", "walks"), "no case meets all of this together, in walks"),
     ],
