@@ -13,7 +13,7 @@ from conformance.commands.options import UsageError
 if TYPE_CHECKING:
     from collections.abc import Collection
 
-    from conformance.case import Case, Vary
+    from conformance.case import Case, Loaded, Vary
     from conformance.query import Outcome, Query
 
 _SEPARATOR: Final = "::"
@@ -45,20 +45,31 @@ def pose_number(text: str) -> int:
 
 def find_case(text: str, vary: Vary | None = None) -> Case:
     """Return the case ``CASE-ID`` or ``FILE::ID``; raises `UsageError` if there is none."""
-    from conformance.loader import AS_WRITTEN, NoCasesError, load_paths
+    from conformance.loader import AS_WRITTEN, NoCasesError, load_mentioning, load_paths
 
     file, _, case_id = text.rpartition(_SEPARATOR)
+    vary = vary or AS_WRITTEN
     try:
-        loaded = load_paths([Path(file)] if file else (), vary or AS_WRITTEN)
+        found = None if file else _named(case_id, load_mentioning(case_id, vary))
+        if found is not None:
+            return found
+        loaded = load_paths([Path(file)] if file else (), vary)
     except (NoCasesError, OSError) as error:
         raise UsageError(str(error)) from error
-    cases = {case.id: case for case in loaded.cases}
-    if case_id not in cases:
-        wrong = f" {len(loaded.problems)} mistakes keep cases from loading, see `conformance lint`."
-        lint = wrong if loaded.problems else ""
-        where = f"in {file}" if file else "among the built-in cases"
-        raise UsageError(f"no case {case_id!r} {where}.{_hint(case_id, cases)}{lint}")
-    return cases[case_id]
+    found = _named(case_id, loaded)
+    if found is None:
+        raise _no_case(case_id, f"in {file}" if file else "among the built-in cases", loaded)
+    return found
+
+
+def _named(case_id: str, loaded: Loaded) -> Case | None:
+    return next((case for case in loaded.cases if case.id == case_id), None)
+
+
+def _no_case(case_id: str, where: str, loaded: Loaded) -> UsageError:
+    wrong = f" {len(loaded.problems)} mistakes keep cases from loading, see `conformance lint`."
+    hint = _hint(case_id, [case.id for case in loaded.cases])
+    return UsageError(f"no case {case_id!r} {where}.{hint}{wrong if loaded.problems else ''}")
 
 
 def query_of(case: Case, pose: int) -> Query:

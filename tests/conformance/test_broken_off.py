@@ -149,6 +149,8 @@ CASES = """\
 import os
 import signal
 
+signal.signal(signal.SIGINT, signal.default_int_handler)  # ignored below a shell's background job
+
 
 def test_first() -> None:
     pass

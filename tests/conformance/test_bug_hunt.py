@@ -6,18 +6,17 @@ from dataclasses import replace
 from pathlib import Path
 
 import pytest
+from shipped_cases import shipped_cases
 
 from conformance.bug_hunt import FAMILIES, Kill, Record, first_difference, hunt
 from conformance.candidates.bug_candidate import KnownBug
 from conformance.candidates.known_bugs import list_bugs
 from conformance.candidates.oracle_candidate import OracleCandidate
 from conformance.console import Progress
-from conformance.loader import Vary, load_paths
 from conformance.query import Errored, Query, Result, Skipped
 from conformance.report.kills import as_json, cells, kill_table, markdown_table, verdict
 
 DOCUMENT = Path(__file__).parents[2] / "docs" / "known-bugs.md"
-CASES = load_paths(vary=Vary(poses=0)).cases
 BUGS = {bug.id: bug for bug in list_bugs()}
 HARMLESS = KnownBug("harmless", "nothing", "the same", ())
 """Replaces nothing, so nothing can catch it."""
@@ -25,9 +24,9 @@ HARMLESS = KnownBug("harmless", "nothing", "the same", ())
 
 def hunted(*bugs: KnownBug, draws: int = 0) -> list[Record]:
     """Hunt with every case that a bug names, and some random queries."""
-    named = {bug.case for bug in bugs}
+    cases = [shipped_cases()[bug.case] for bug in bugs if bug.case]
     with Progress() as progress:
-        return hunt(bugs, [case for case in CASES if case.id in named], draws=draws, progress=progress)
+        return hunt(bugs, cases, draws=draws, progress=progress)
 
 
 def test_a_bug_is_caught_by_its_case_and_at_random() -> None:

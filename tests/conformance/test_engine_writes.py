@@ -6,11 +6,11 @@ from dataclasses import replace
 from typing import TYPE_CHECKING, Final
 
 import pytest
+from shipped_cases import shipped_cases
 from shipped_vectors import VECTORS, records
 
 from conformance.candidates.engine_candidate import EngineCandidate
 from conformance.candidates.oracle_candidate import OracleCandidate
-from conformance.loader import Vary, load_paths
 from conformance.query import Result
 from conformance.report.traces import summary_lines
 from conformance.trace_text import line_of
@@ -53,7 +53,7 @@ CALLING: Final = frozenset(
     }
 )
 """Operations that make calls of trees; of others, what prepares them writes."""
-CASES = [case for case in load_paths(vary=Vary(poses=0)).cases if case.op in CALLING]
+CASES = [case for case in shipped_cases().values() if case.op in CALLING]
 COMPARED = [case for i, case in enumerate(CASES) if "walk" in case.op or i % 4 == 0]
 """Every walk, and every fourth of the others."""
 

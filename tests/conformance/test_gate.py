@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import datetime as dt
-import functools
 import hashlib
 import json
 import re
@@ -19,6 +18,7 @@ from deviation_files import FAILING, ORIGIN, deviation_file
 from faux import faux_command, serve_command
 from hypothesis import given
 from hypothesis import strategies as st
+from shipped_cases import shipped_cases
 
 from conformance import exit_codes
 from conformance.candidates.known_bugs import list_bugs
@@ -32,9 +32,9 @@ from conformance.gate import config, digests, pages, pinned, speed
 from conformance.gate.evidence import EvidenceError, badge_record, passed_before
 from conformance.gate.junit import junit_xml
 from conformance.gate.outcome import VERDICTS, Check, GateRun, Stage, Status
-from conformance.gate.pinned import chosen, judged
+from conformance.gate.pinned import judged
 from conformance.gate.speed import Baseline, BaselineError, measure_ratio, read_baseline
-from conformance.loader import Vary, load_file, load_paths
+from conformance.loader import Vary, load_file
 from conformance.query import Query, Result, Skipped
 from conformance.report.html.library import MissingVizError
 from conformance.shapes import Kind
@@ -260,7 +260,7 @@ def test_random_queries(gate: Gate) -> None:
 @pytest.mark.parametrize("bug", [bug for bug in BUGS.values() if not bug.survives], ids=lambda bug: bug.id)
 def test_each_known_bug_fails_the_gate(bug: Any, gate: Gate) -> None:
     """1, and the evidence names the case; more cases and stages can only add to what fails."""
-    (case,) = chosen(built_in(), [bug.case])
+    case = shipped_cases()[bug.case]
     gate.config.write_text(
         TWO_CASES.format(json.dumps(str(Path(case.location.file).resolve()))), encoding="utf-8"
     )
@@ -268,12 +268,6 @@ def test_each_known_bug_fails_the_gate(bug: Any, gate: Gate) -> None:
     (check,) = gate.summary()["checks"]
     assert (check["name"], check["status"]) == (case.id, "failed")
     assert case.id in (gate.evidence / "report.html").read_text(encoding="utf-8")
-
-
-@functools.cache
-def built_in() -> tuple[Any, ...]:
-    """Return the cases of the package."""
-    return load_paths(vary=Vary(poses=0)).cases
 
 
 def test_an_error_alone_is_broken() -> None:

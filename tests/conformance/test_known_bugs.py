@@ -7,6 +7,7 @@ from typing import Any
 
 import numpy as np
 import pytest
+from shipped_cases import shipped_cases
 from shipped_vectors import VECTORS, library, records
 
 from conformance.candidates import known_bugs
@@ -15,7 +16,6 @@ from conformance.candidates.oracle_candidate import OracleCandidate
 from conformance.candidates.oracle_ops import geometry
 from conformance.candidates.replacements import Method, replaced
 from conformance.compare import differences, pin_differences
-from conformance.loader import Vary, load_paths
 from conformance.query import Errored, Fields, Query, Result
 from oracle import land_block_struct
 from oracle.env_cell import EnvCell
@@ -23,10 +23,7 @@ from oracle.env_cell import EnvCell
 CELL = 0xA9B40151
 POSE = {"cell": CELL, "origin": [100.0, 50.0, 94.0], "rotation": [0.9238795, 0.0, 0.0, 0.38268343]}
 """Turned by 45 degrees about z, moved to (100, 50, 94)."""
-
-
-CASES = {case.id: case for case in load_paths(vary=Vary(poses=0)).cases}
-"""The built-in cases in the pose they are pinned in."""
+CASES = shipped_cases()
 BEYOND = (2838, 13341)
 """A cell outside of the world (2048 a side) that the decimal constant cuts differently; found by search."""
 NEIGHBOURS = {

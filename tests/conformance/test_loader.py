@@ -6,8 +6,17 @@ import json
 from pathlib import Path
 
 import pytest
+from shipped_cases import shipped_cases
 
-from conformance.loader import BUILT_IN_CASES, NoCasesError, Vary, case_files, load_file, load_paths
+from conformance.loader import (
+    Loaded,
+    NoCasesError,
+    Vary,
+    case_files,
+    load_file,
+    load_mentioning,
+    load_paths,
+)
 
 STEP = """\
 id: step
@@ -173,12 +182,10 @@ def test_nothing_is_green_on_nothing(tmp_path: Path) -> None:
 
 
 def test_the_built_in_cases() -> None:
-    """At least sixty, without problems, with unique ids, over every way through find_collisions."""
-    loaded = load_paths()
-    assert loaded.problems == ()
-    assert len(loaded.cases) >= 60
-    assert {"origin-step-down-touching", "origin-step-down-short"} <= {case.id for case in loaded.cases}
-    pins = {str(pin.value) for case in loaded.cases for pin in case.expect if pin.path == "dispatch"}
+    """They have pins, over every way through find_collisions and every kind of walk."""
+    cases = shipped_cases().values()
+    assert all(case.expect for case in cases)
+    pins = {str(pin.value) for case in cases for pin in case.expect if pin.path == "dispatch"}
     assert pins == {
         "placement",
         "check_walkable",
@@ -189,8 +196,15 @@ def test_the_built_in_cases() -> None:
         "path_clipped",
         "initial_placement",
     }
-    walks = {case.op for case in loaded.cases if "walk" in case.tags}
+    walks = {case.op for case in cases if "walk" in case.tags}
     assert walks == {"walk", "world_walk", "body_walk"}
-    assert all(case.expect for case in loaded.cases)
-    assert {case.location.file for case in loaded.cases}
-    assert BUILT_IN_CASES.is_dir()
+
+
+def test_a_case_stands_in_a_file_that_mentions_it() -> None:
+    """No other is read; a word that stands nowhere is no mistake."""
+    loaded = load_mentioning("origin-step-down-short", Vary(poses=0))
+    assert loaded.problems == ()
+    by_id = {case.id: case for case in loaded.cases}
+    assert by_id["origin-step-down-short"].source == shipped_cases()["origin-step-down-short"].source
+    assert len(by_id) < len(shipped_cases()) / 20
+    assert load_mentioning("no-such-case") == Loaded()

@@ -5,11 +5,11 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 import pytest
+from shipped_cases import shipped_cases
 
 from conformance.candidates.oracle_candidate import OracleCandidate
 from conformance.candidates.registry import make_candidate
 from conformance.compare import differences
-from conformance.loader import Vary, load_paths
 from conformance.query import Errored, Query, Result
 from conformance.report.excerpts import compared_writes, lone_writes
 from conformance.trace_excerpt import excerpt
@@ -20,7 +20,7 @@ if TYPE_CHECKING:
     from conformance.compare import Difference
     from conformance.query import Outcome
 
-CASES = {case.id: case for case in load_paths(vary=Vary(poses=0)).cases}
+CASES = shipped_cases()
 ORACLE = OracleCandidate()
 MOST_LINES = 30
 
