@@ -34,6 +34,8 @@ SAME_EVERY_TIME = settings(
 )
 ENOUGH = 200
 """Queries of a sample: Hypothesis draws them in families, so that far fewer may all be alike."""
+OF_EACH_PATH = 100
+"""Of calls of trees there are nine such samples, which are looked at together, too."""
 VARIED_ANSWERS = {
     "polygon_point_in_polygon": "r",
     "polygon_hits_sphere_slow": "r",
@@ -75,7 +77,7 @@ def share(values: list[bool]) -> float:
 @pytest.fixture(scope="module")
 def collisions() -> dict[str, list[Fields]]:
     """Return the oracle's answers to queries of each path."""
-    return {dispatch: answers(find_collisions(dispatch), ENOUGH) for dispatch in DISPATCHES}
+    return {dispatch: answers(find_collisions(dispatch), OF_EACH_PATH) for dispatch in DISPATCHES}
 
 
 def test_every_path_is_taken(collisions: dict[str, list[Fields]]) -> None:
