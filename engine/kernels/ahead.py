@@ -60,6 +60,7 @@ def bring_near(rows: Array, first: int, count: int) -> None:
 
 @inlined
 def bring_nearer(rows: Array, first: int, count: int) -> None:
-    """Have so many numbers of an array's memory, from the first on, brought into the second cache."""
+    """Have so many of an array's numbers, from the first on, brought into the second cache, and the last."""
     for k in range(0, count, LINE):
         _to_second(rows, first + k)
+    _to_second(rows, first + count - 1)
