@@ -13,7 +13,7 @@ from engine.errors import CrowdedError, QueryError, RecursionBoundError, Undeter
 from engine.given import room
 from engine.kernels import program
 from engine.object_call import ObjectCall, object_rows
-from engine.plan import FULL_PLAN, NO_PLAN, Plan
+from engine.plan import CALL_PLAN, FULL_PLAN, Plan
 from engine.query import CollisionCall, Move, collision_rows, move_rows
 
 if TYPE_CHECKING:
@@ -126,16 +126,18 @@ def find_collisions_many(
     calls: Sequence[CollisionCall] | Rows,
     *,
     threads: int = 1,
+    plan: Plan = CALL_PLAN,
     coherent: bool = True,
     out: Rows | None = None,
 ) -> Rows:
     """Make many collision calls, each as if it were alone; results in the same order.
 
     `calls` are CollisionCall objects, or rows made by `engine.query.collision_rows`.
-    What `threads`, `coherent` and `out` are, `resolve_many` says. See `find_collisions`.
+    What `threads`, `plan`, `coherent` and `out` are, `resolve_many` says; of the plan only `Stage.BOUNDS`
+    concerns single calls. See `find_collisions`.
     """
     rows = calls if isinstance(calls, np.ndarray) else collision_rows(world, calls)
-    return _run(program.COLLIDE, world, rows, threads, NO_PLAN, coherent=coherent, out=out)
+    return _run(program.COLLIDE, world, rows, threads, _of_calls(plan), coherent=coherent, out=out)
 
 
 def find_object_collisions(world: World, call: ObjectCall) -> Any:
@@ -165,16 +167,23 @@ def find_object_collisions_many(
     calls: Sequence[ObjectCall] | Rows,
     *,
     threads: int = 1,
+    plan: Plan = CALL_PLAN,
     coherent: bool = True,
     out: Rows | None = None,
 ) -> Rows:
     """Make many calls of obstacles, each as if it were alone; results in the same order.
 
     `calls` are ObjectCall objects, or rows made by `engine.object_call.object_rows`.
-    What `threads`, `coherent` and `out` are, `resolve_many` says. See `find_object_collisions`.
+    What `threads`, `plan`, `coherent` and `out` are, `resolve_many` says; of the plan only `Stage.BOUNDS`
+    concerns single calls. See `find_object_collisions`.
     """
     rows = calls if isinstance(calls, np.ndarray) else object_rows(world, calls)
-    return _run(program.MEET, world, rows, threads, NO_PLAN, coherent=coherent, out=out)
+    return _run(program.MEET, world, rows, threads, _of_calls(plan), coherent=coherent, out=out)
+
+
+def _of_calls(plan: Plan) -> Plan:
+    """Return what of a plan single calls take: the other shortcuts are proven of whole transitions."""
+    return Plan(plan.skip & CALL_PLAN.skip)
 
 
 def _run(

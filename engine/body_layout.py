@@ -9,7 +9,16 @@ from __future__ import annotations
 from typing import Final
 
 from engine.constants import frozen
-from engine.layout import MAX_SPHERES, PLANE_SIZE, POSE_SIZE, POSITION_SIZE, SPHERE_SIZE, VECTOR_SIZE, Row
+from engine.layout import (
+    MAX_SPHERES,
+    PLANE_SIZE,
+    POSE_SIZE,
+    POSITION_SIZE,
+    SKIPPED_SIZE,
+    SPHERE_SIZE,
+    VECTOR_SIZE,
+    Row,
+)
 
 _row = Row()
 
@@ -78,7 +87,7 @@ B_REPORTED: Final = _row.field("reported")
 """Whether a game object was told of a collision."""
 B_NODES_VISITED: Final = _row.field("nodes_visited")
 B_POLYGONS_TESTED: Final = _row.field("polygons_tested")
-B_SKIPPED: Final = _row.field("skipped", 4)
+B_SKIPPED: Final = _row.field("skipped", SKIPPED_SIZE)
 """How often each shortcut was taken, as in `engine.layout.SKIPPED`."""
 B_STATUS: Final = _row.field("status")
 """`engine.layout.STATUS_OK`, or why the tick could not be finished."""

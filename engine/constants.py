@@ -223,6 +223,12 @@ BOUND_MOST: Final = 2.0**14
 """Greatest coordinate, or radius, of geometry that has bounds, metres: float32 counts by 1 mm there."""
 UP_SLACK: Final = 2.0**-10
 """How far, all three coordinates together, an up may be from the one that slopes have been measured along."""
+GATE_LEAST: Final = 0.0625
+"""Radius of the smallest sphere that may walk without bounding spheres, metres: it is hundreds of EPS."""
+GATE_MOST: Final = 4.0
+"""Radius of the largest one, metres: a human's is 0.48."""
+GATE_WAY: Final = 2.0**20
+"""Longest movement, metres: back along it no sphere gets where float32 ends."""
 FLIGHT_STEPS: Final = 64.0
 """Most sub-steps that are bounded together."""
 UNBOUNDED: Final = math.inf

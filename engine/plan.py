@@ -4,7 +4,8 @@ A transition is a chain of tests, most of which find nothing: of objects that ar
 portals that nobody is near, of a tree while the mover flies through the middle of a room. A *shortcut*
 leaves such tests out where a broad phase shows that they find nothing. None of them can change a bit of
 a result: the kernels that take them prove it, each at its place (`engine.kernels.plan`, `plan_portals`,
-`plan_flight`), from bounds that are derived in `engine.kernels.broad`. What may differ is counters of work.
+`plan_flight`, `gate`), most of them from bounds that are derived in `engine.kernels.broad`. What may differ
+is counters of work.
 
 Batches, prepared queries and ticks use all shortcuts unless they are told otherwise. A row of state that
 records a trace uses none, since a trace tells of every call that retail makes; nor does `recording`.
@@ -33,9 +34,11 @@ class Stage(IntFlag):
     """Testing the ground of a land cell that is far below."""
     FLIGHT = int(at.PLAN_FLIGHT)
     """Inserting the mover in each sub-step of a move indoors of which nothing at all is in reach."""
+    BOUNDS = int(at.PLAN_BOUNDS)
+    """Testing bounding spheres below a tree's root, where no polygon is outside of one above it."""
 
 
-ALL_STAGES: Final = Stage.PORTALS | Stage.OBJECTS | Stage.GROUND | Stage.FLIGHT
+ALL_STAGES: Final = Stage.PORTALS | Stage.OBJECTS | Stage.GROUND | Stage.FLIGHT | Stage.BOUNDS
 
 
 @dataclass(frozen=True, slots=True)
@@ -65,4 +68,6 @@ class Plan:
 
 FULL_PLAN: Final = Plan()
 """What is used where nothing else is said."""
+CALL_PLAN: Final = Plan(Stage.BOUNDS)
+"""What is used of single calls of trees and objects: the other shortcuts are those of whole transitions."""
 NO_PLAN: Final = Plan.none()

@@ -34,9 +34,9 @@ class Work:
         Nodes of trees visited, and polygons tested; those of the broad phase included.
     objects, cells : int
         Objects tested, and cells put on the cell list. Bodies do not tell: 0.
-    portals, things, grounds, flights : int
+    portals, things, grounds, flights, unbounded : int
         Shortcuts taken (`engine.plan.Stage`): cell lists of one, objects and houses passed over, grounds
-        passed over, sub-steps of free flights.
+        passed over, sub-steps of free flights, walks through trees without the bounding spheres.
     """
 
     queries: int = 0
@@ -48,6 +48,7 @@ class Work:
     things: int = 0
     grounds: int = 0
     flights: int = 0
+    unbounded: int = 0
 
     def __add__(self, other: Work) -> Work:
         """Return what both did together."""

@@ -12,6 +12,7 @@ from engine.checks import LARGEST_INDEX, whole
 from engine.errors import QueryError
 from engine.given import room, rooms
 from engine.kernels import tree_calls
+from engine.plan import CALL_PLAN, Plan
 
 if TYPE_CHECKING:
     import numpy.typing as npt
@@ -30,6 +31,7 @@ def strike_many(
     movements: npt.ArrayLike,
     *,
     threads: int = 1,
+    plan: Plan = CALL_PLAN,
     coherent: bool = True,
     out: tuple[npt.NDArray[np.int32], npt.NDArray[np.int32]] | None = None,
 ) -> tuple[npt.NDArray[np.int32], npt.NDArray[np.int32]]:
@@ -46,6 +48,8 @@ def strike_many(
         How it came there; metres, cell-local. Rounded to float32.
     threads : int
         How many share the work; the answers are the same for any number.
+    plan : Plan
+        Which work may be left out; of it, `Stage.BOUNDS` concerns these walks. It changes no answer.
     coherent : bool
         Whether spheres that are near each other are answered one after the other (`engine.coherence`); the
         answers are the same, and in the same order.
@@ -77,7 +81,7 @@ def strike_many(
     struck = room(hits, np.int32, (count,), asked, "out[0], struck")
     polygons = room(ids, np.int32, (count,), (*asked, struck), "out[1], polygons")
     rows = (root, *asked, struck, polygons)
-    answer(world, tree_calls.strike_many, lambda: rows, count, threads, coherent=coherent)
+    answer(world, tree_calls.strike_many, lambda: rows, count, threads, plan=plan, coherent=coherent)
     return struck, polygons
 
 
@@ -91,6 +95,7 @@ def step_down_many(
     interps: npt.ArrayLike,
     *,
     threads: int = 1,
+    plan: Plan = CALL_PLAN,
     coherent: bool = True,
     out: tuple[Array, Array, npt.NDArray[np.int32]] | None = None,
 ) -> tuple[Array, Array, npt.NDArray[np.int32]]:
@@ -113,6 +118,8 @@ def step_down_many(
         How much of the movement may be used: retail's walk_interp, 1 at first.
     threads : int
         How many share the work; the answers are the same for any number.
+    plan : Plan
+        Which work may be left out; of it, `Stage.BOUNDS` concerns these walks. It changes no answer.
     coherent : bool
         Whether spheres that are near each other are answered one after the other (`engine.coherence`); the
         answers are the same, and in the same order.
@@ -154,7 +161,7 @@ def step_down_many(
     centers = room(places, np.float64, (count, int(at.VECTOR_SIZE)), (*asked, left), "out[0], centers")
     polygons = room(ids, np.int32, (count,), (*asked, left, centers), "out[2], polygons")
     rows = (root, *asked, left, centers, polygons)
-    answer(world, tree_calls.step_down_many, lambda: rows, count, threads, coherent=coherent)
+    answer(world, tree_calls.step_down_many, lambda: rows, count, threads, plan=plan, coherent=coherent)
     return centers, left, polygons
 
 

@@ -21,6 +21,7 @@ _SHORTCUTS: Final = (
     ("objects passed over", "things"),
     ("grounds passed over", "grounds"),
     ("sub-steps flown freely", "flights"),
+    ("walks without bounding spheres", "unbounded"),
 )
 
 

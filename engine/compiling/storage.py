@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Final
 import numpy as np
 
 from engine import layout as at
+from engine.compiling.enclosure import gate_radius
 from engine.compiling.leaf_planes import leaf_planes
 from engine.memory import aligned
 
@@ -34,7 +35,7 @@ class Storage:
     """
 
     def __init__(self, shapes: Sequence[Shape]) -> None:
-        nodes = int(at.FIRST_NODE) + sum(len(shape.node_ints) for shape in shapes)
+        nodes = int(at.FIRST_NODE) + sum(len(shape.node_ints) - int(at.GATE) for shape in shapes)
         header_nodes = int(at.FIRST_NODE)
         self._node_floats: list[Array] = [np.zeros(at.NODE_FLOATS * header_nodes, dtype=np.float64)]
         self._node_ints: list[Ints] = [np.zeros(at.NODE_INTS * header_nodes, dtype=np.int64)]
@@ -48,8 +49,9 @@ class Storage:
         self._planes: dict[int, tuple[int, int]] = {}
         first = header_nodes
         for index, shape in enumerate(shapes):
-            self._add_shape(index, shape, first)
-            first += len(shape.node_ints)
+            self._add_gate(shape)
+            self._add_shape(index, shape, first - int(at.GATE))
+            first += len(shape.node_ints) - int(at.GATE)
 
     def align(self) -> None:
         """Let the next numbers begin where a cache line does."""
@@ -95,6 +97,13 @@ class Storage:
         nodes: Array = shape.node_floats.copy()
         nodes[leaves, at.LEAF_PLANES] = begin + begins
         return nodes
+
+    def _add_gate(self, shape: Shape) -> None:
+        """Append what stands before a root, in the room of a node."""
+        gate: Array = np.zeros(at.NODE_FLOATS, dtype=np.float64)
+        gate[at.GATE_RADIUS] = gate_radius(shape)
+        self._node_floats.append(gate)
+        self._node_ints.append(np.zeros(at.NODE_INTS, dtype=np.int64))
 
     def _add_shape(self, index: int, shape: Shape, first: int) -> None:
         """Append a shape; its tree gets node numbers from `first` on."""

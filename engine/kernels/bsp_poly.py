@@ -21,6 +21,7 @@ from engine.kernels.bsp_node import (
 )
 from engine.kernels.bsp_wide import strike_on, wide_leaf_overlap
 from engine.kernels.compile import entry, inlined, kernel
+from engine.kernels.gate import unbounded
 from engine.kernels.indexing import unsigned
 from engine.kernels.polygon import polygon_hits_sphere_slow_but_sure, polygon_moved_along
 from engine.kernels.polygon_edges import HIT, MISS
@@ -45,15 +46,17 @@ def _leaf_strikes(
     my: float,
     mz: float,
     poly: int,
+    free: bool,
 ) -> tuple[bool, int]:
     """Find the first polygon of a leaf that overlaps and faces the movement.
 
-    Returns whether there is one, and the last polygon that overlapped (`poly` if none did).
+    `free`: of the leaf's bounding sphere. Returns whether there is one, and the last polygon that overlapped
+    (`poly` if none did).
 
     retail: SP-4...SP-6, CPolygon::pos_hits_sphere 0x005394F0, PS-1...PS-3
     """
     first, count = leaf_polygons(wi, leaf)
-    if count == 0 or not in_bounds(wf, leaf, x, y, z, r):
+    if count == 0 or not (free or in_bounds(wf, leaf, x, y, z, r)):
         return False, poly
     struck = False
     tested = 0
@@ -91,22 +94,26 @@ def sphere_intersects_poly(
 
     retail: BSPNODE::sphere_intersects_poly 0x0053CA30, SP-1...SP-6
     """
+    if not in_bounds(wf, root, x, y, z, r):
+        s[NODES_VISITED] += 1
+        return False, poly
     base = wi[WORLD_STACK]
     top = base
     node = root
     reach = r - EPS
     nodes = 0
     struck = False
+    free = unbounded(wf, s, root, r)
     while True:
         nodes += 1
         if is_leaf(wi, node):
             if is_wide(wi, node):
                 s[NODES_VISITED] += nodes - 1
                 return strike_on(wf, wi, s, node, top, x, y, z, r, mx, my, mz, poly)
-            struck, poly = _leaf_strikes(wf, wi, s, node, x, y, z, r, mx, my, mz, poly)
+            struck, poly = _leaf_strikes(wf, wi, s, node, x, y, z, r, mx, my, mz, poly, free)
             if struck:
                 break
-        elif in_bounds(wf, node, x, y, z, r):
+        elif free or in_bounds(wf, node, x, y, z, r):
             node, top = descend(wf, wi, s, node, x, y, z, reach, top)
             continue
         if top == base:

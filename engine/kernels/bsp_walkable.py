@@ -4,11 +4,12 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from engine.constants import EPS
+from engine.constants import EPS, GATE_WAY
 from engine.kernels.abreast import lowest
 from engine.kernels.bsp_node import descend, in_bounds, is_leaf, is_wide, leaf_polygons, slopes
 from engine.kernels.bsp_wide import find_walkable_on
 from engine.kernels.compile import entry, inlined
+from engine.kernels.gate import unbounded
 from engine.kernels.indexing import unsigned
 from engine.kernels.polygon import polygon_walkable_hits_sphere
 from engine.kernels.polygon_adjust import polygon_adjust_sphere_to_plane
@@ -43,13 +44,16 @@ def _leaf_find_walkable(
     uy: float,
     uz: float,
     poly: int,
+    free: bool,
 ) -> tuple[int, float, float, float]:
     """Put the sphere on every polygon of a leaf that takes it; the last one wins.
+
+    `free`: of the leaf's bounding sphere.
 
     retail: FW-4, FW-5
     """
     first, count = leaf_polygons(wi, leaf)
-    if count == 0 or not in_bounds(wf, leaf, x, y, z, r):
+    if count == 0 or not (free or in_bounds(wf, leaf, x, y, z, r)):
         return poly, x, y, z
     allowance = s[WALKABLE_ALLOWANCE]
     left = slopes(wf, wi, leaf, count, ux, uy, uz, allowance)
@@ -91,20 +95,26 @@ def find_walkable(
 
     retail: BSPNODE::find_walkable 0x0053CC80, FW-1...FW-5
     """
+    if not in_bounds(wf, root, x, y, z, r):
+        s[NODES_VISITED] += 1
+        return NO_POLYGON, x, y, z
     base = wi[WORLD_STACK]
     top = base
     node = root
     reach = r - EPS
     poly = NO_POLYGON
     nodes = 0
+    free = abs(mx) + abs(my) + abs(mz) < GATE_WAY and unbounded(wf, s, root, r)
     while True:
         nodes += 1
         if is_leaf(wi, node):
             if is_wide(wi, node):
                 s[NODES_VISITED] += nodes - 1
                 return find_walkable_on(wf, wi, s, node, top, x, y, z, r, mx, my, mz, ux, uy, uz, poly)
-            poly, x, y, z = _leaf_find_walkable(wf, wi, s, node, x, y, z, r, mx, my, mz, ux, uy, uz, poly)
-        elif in_bounds(wf, node, x, y, z, r):
+            poly, x, y, z = _leaf_find_walkable(
+                wf, wi, s, node, x, y, z, r, mx, my, mz, ux, uy, uz, poly, free
+            )
+        elif free or in_bounds(wf, node, x, y, z, r):
             node, top = descend(wf, wi, s, node, x, y, z, reach, top)
             continue
         if top == base:
@@ -128,13 +138,16 @@ def _leaf_hits_walkable(
     ux: float,
     uy: float,
     uz: float,
+    free: bool,
 ) -> bool:
     """Say whether a leaf has a polygon that supports the sphere.
+
+    `free`: of the leaf's bounding sphere.
 
     retail: BSPLEAF::hits_walkable 0x0053D670, 03 6
     """
     first, count = leaf_polygons(wi, leaf)
-    if count == 0 or not in_bounds(wf, leaf, x, y, z, r):
+    if count == 0 or not (free or in_bounds(wf, leaf, x, y, z, r)):
         return False
     allowance = s[WALKABLE_ALLOWANCE]
     for i in range(first, first + count):
@@ -165,16 +178,20 @@ def hits_walkable(
 
     retail: BSPNODE::hits_walkable 0x0053CBD0, 03 6
     """
+    if not in_bounds(wf, root, x, y, z, r):
+        s[NODES_VISITED] += 1
+        return False
     base = wi[WORLD_STACK]
     top = base
     node = root
     reach = r - EPS
+    free = unbounded(wf, s, root, r)
     while True:
         s[NODES_VISITED] += 1
         if is_leaf(wi, node):
-            if _leaf_hits_walkable(wf, wi, s, node, x, y, z, r, ux, uy, uz):
+            if _leaf_hits_walkable(wf, wi, s, node, x, y, z, r, ux, uy, uz, free):
                 return True
-        elif in_bounds(wf, node, x, y, z, r):
+        elif free or in_bounds(wf, node, x, y, z, r):
             node, top = descend(wf, wi, s, node, x, y, z, reach, top)
             continue
         if top == base:

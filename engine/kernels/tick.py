@@ -72,6 +72,7 @@ from engine.layout import (
     POSITION_SIZE,
     QUATERNION,
     SKIPPED,
+    SKIPPED_BOUNDS,
     STATUS,
     STATUS_OK,
     TRACE_LENGTH,
@@ -242,3 +243,4 @@ def _report(s: Array, b: Array) -> None:
     b[B_NODES_VISITED] = s[NODES_VISITED]
     b[B_POLYGONS_TESTED] = s[POLYGONS_TESTED]
     copy_four(b, B_SKIPPED, s, SKIPPED)
+    b[B_SKIPPED + SKIPPED_BOUNDS - SKIPPED] = s[SKIPPED_BOUNDS]

@@ -9,7 +9,7 @@ from typing import Final
 
 from engine.constants import frozen
 from engine.layout.rows import MAX_SPHERES, SPHERE_SIZE, Row
-from engine.layout.state import COLLISION_INFO, COLLISION_INFO_SIZE
+from engine.layout.state import COLLISION_INFO, COLLISION_INFO_SIZE, SKIPPED_SIZE
 from engine.layout.state import _row as _state
 
 # --- a query: what the caller sets -----------------------------------------------------------------
@@ -96,7 +96,7 @@ R_NODES_VISITED: Final = _result.field("nodes_visited")
 R_POLYGONS_TESTED: Final = _result.field("polygons_tested")
 R_CELLS_LISTED: Final = _result.field("cells_listed")
 R_OBJECTS_TESTED: Final = _result.field("objects_tested")
-R_SKIPPED: Final = _result.field("skipped", 4)
+R_SKIPPED: Final = _result.field("skipped", SKIPPED_SIZE)
 """How often each shortcut was taken, as in `SKIPPED`."""
 R_STATUS: Final = _result.field("status")
 

@@ -133,8 +133,11 @@ SCRATCH_FRAME: Final = _row.field("scratch_frame", POSITION_SIZE)
 """The frame that find_placement_pos turns around."""
 PLAN: Final = _row.field("plan")
 """Which shortcuts may be taken: bits `PLAN_PORTALS`, ... (`engine.plan`)."""
-SKIPPED: Final = _row.field("skipped", 4)
-"""How often each was, in the order of the bits; of objects, how many were passed over."""
+SKIPPED_SIZE: Final = frozen(5)
+"""How many shortcuts there are."""
+SKIPPED: Final = _row.field("skipped", SKIPPED_SIZE)
+"""How often each was, in the order of the bits; of objects, how many were passed over; of bounds, in how many
+walks they were."""
 TRACE_LENGTH: Final = _row.field("trace_length")
 TRACE_CAPACITY: Final = _row.field("trace_capacity")
 """Places for trace characters behind the row; 0 turns the trace off."""
@@ -143,10 +146,12 @@ PLAN_PORTALS: Final = frozen(1)
 PLAN_OBJECTS: Final = frozen(2)
 PLAN_GROUND: Final = frozen(4)
 PLAN_FLIGHT: Final = frozen(8)
+PLAN_BOUNDS: Final = frozen(16)
 SKIPPED_PORTALS: Final = frozen(SKIPPED)
 SKIPPED_OBJECTS: Final = frozen(SKIPPED + 1)
 SKIPPED_GROUND: Final = frozen(SKIPPED + 2)
 SKIPPED_FLIGHT: Final = frozen(SKIPPED + 3)
+SKIPPED_BOUNDS: Final = frozen(SKIPPED + 4)
 
 STATE_SIZE: Final = frozen(_row.size)
 STATE_DTYPE: Final = _row.dtype()

@@ -30,6 +30,12 @@ SOLID_BIT: Final = frozen(2)
 LEAF_COUNT_SHIFT: Final = frozen(2)
 WIDE_LEAF: Final = frozen(24)
 """How many polygons a wide leaf lists at least: walks go on in `engine.kernels.bsp_wide` there."""
+GATE: Final = frozen(-1)
+"""Before each root there is room for one more node, the gate of the tree: what walks are told of it."""
+GATE_RADIUS: Final = frozen(0)
+"""Of a gate's floats: of how large a sphere the walk needs no bounding spheres, metres, or `NO_GATE`
+(`engine.kernels.gate`)."""
+NO_GATE: Final = -math.inf
 LEAF_PLANES: Final = frozen(0)
 """Of a leaf's floats, in a tree that has a wide one: where in the world's floats the planes of its polygons
 begin, in blocks of `ABREAST`."""

@@ -18,7 +18,7 @@ if TYPE_CHECKING:
 WORK = {"nodes_visited", "polygons_tested", "cells_listed", "objects_tested", "skipped"}
 """Fields that count work, and so differ."""
 QUERIES = 1_000
-"""In each site; with its five plans in all sites more than 50,000."""
+"""In each site; with its seven plans in all sites more than 50,000."""
 
 
 def answers(records: Any) -> list[bytes]:

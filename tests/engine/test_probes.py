@@ -15,8 +15,8 @@ FLIGHT = Move(mover(), at(0.25, 0.0, 3.0), CELL, start=at(0.0, 0.0, 3.0))
 
 def test_work_adds_up() -> None:
     """Field by field."""
-    one, two = Work(1, 2, 3, 4, 5, 6, 7, 8, 9), Work(queries=1, flights=1)
-    assert one + two == Work(2, 2, 3, 4, 5, 6, 7, 8, 10)
+    one, two = Work(1, 2, 3, 4, 5, 6, 7, 8, 9, 10), Work(queries=1, flights=1)
+    assert one + two == Work(2, 2, 3, 4, 5, 6, 7, 8, 10, 10)
 
 
 def test_the_work_of_a_batch_is_that_of_its_queries() -> None:
