@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import sys
 from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Final
@@ -14,13 +15,18 @@ if TYPE_CHECKING:
     import argparse
 
     from conformance.case import Case
+    from conformance.protocol.dialects import Dialect
     from conformance.query import Query
 
-HELP: Final = "show the work that a case takes, or draw its scene as a picture"
+HELP: Final = (
+    "show the work that a case takes or what an engine is sent for it, or draw its scene as a picture"
+)
 EXAMPLES: Final = (
     "conformance show --work walk-cellar-descent",
     "conformance show --work my-cases/ramp.yaml::my-first-ramp --pose 3",
     "conformance show walk-cellar-descent -o cellar.png --candidate bug:cell-origin",
+    "conformance show origin-step-down-touching --messages decimal > case.jsonl",
+    "conformance serve --candidate oracle < case.jsonl",
 )
 
 
@@ -41,21 +47,40 @@ def configure(parser: argparse.ArgumentParser) -> None:
         help="draw the scene as a PNG file: cells, both movers, their contact planes, the polygon in "
         "question; of a walk the first tick that differs (needs the extra `viz`)",
     )
+    parser.add_argument(
+        "--messages",
+        choices=("decimal", "hex"),
+        metavar="FLOATS",
+        help="the session in which a cmd: engine is asked it, line by line, floats as decimal or hex: its "
+        "stdin under a debugger",
+    )
     add_pose(parser)
     add_candidate_option(parser, default="oracle")
 
 
 def run(args: argparse.Namespace) -> int:
     """Print what was asked for, and return the exit code: 1 if the case fails to run."""
-    if not args.work and args.output is None:
-        raise UsageError("nothing to show was asked for; there are: --work, --output FILE")
+    if not args.work and args.output is None and args.messages is None:
+        raise UsageError("nothing to show was asked for; there are: --work, --output FILE, --messages FLOATS")
+    if args.messages is not None and (args.work or args.output is not None):
+        raise UsageError("--messages are lines for an engine: nothing else is shown beside them")
     case = find_case(args.case)
     query = query_of(case, args.pose)
+    if args.messages is not None:
+        return _show_messages(query, args.messages)
     if args.output is not None:
         code = _draw(case, query, args)
         if code != exit_codes.OK or not args.work:
             return code
     return _show_work(query)
+
+
+def _show_messages(query: Query, dialect: Dialect) -> int:
+    from conformance.protocol.transcript import messages_of
+
+    for line in messages_of(query, dialect):
+        sys.stdout.write(line.decode("utf-8"))
+    return exit_codes.OK
 
 
 def _show_work(query: Query) -> int:

@@ -15,6 +15,7 @@ if TYPE_CHECKING:
     from conformance.protocol.dialects import Dialect
 
 _BODIES: Final = ("result", "skipped", "errored")
+_USUAL: Final = frozenset({"seq", "result"})
 _MOST_SHOWN: Final = 120
 """Characters of a bad reply that are shown."""
 _MINUS_ZERO: Final = re.compile(rb"-0(?![.0-9eE])")
@@ -59,8 +60,24 @@ def read_reply(line: bytes, seq: int) -> dict[str, Any]:
     reply = _parsed(line)
     if not isinstance(reply, dict):
         raise BadReplyError(f"{_shown(line)}, which is not an object", _example(seq))
+    if not _is_usual(reply, seq):
+        _check_envelope(reply, seq, line)
+    return reply
+
+
+def _is_usual(reply: dict[str, Any], seq: int) -> bool:
+    """Tell whether a reply is a result without anything wrong, as nearly all are."""
+    return (
+        reply.keys() == _USUAL
+        and type(reply["seq"]) is int
+        and reply["seq"] == seq
+        and isinstance(reply["result"], dict)
+    )
+
+
+def _check_envelope(reply: dict[str, Any], seq: int, line: bytes) -> None:
     bodies = [key for key in _BODIES if key in reply]
-    others = [key for key in reply if key not in {"seq", *_BODIES}]
+    others = [key for key in reply if key != "seq" and key not in _BODIES]
     if others:
         raise BadReplyError(f"the extra field {others[0]!r}", _example(seq))
     _check_sequence(reply, seq, line)
@@ -68,7 +85,6 @@ def read_reply(line: bytes, seq: int) -> dict[str, Any]:
         found = " and ".join(bodies) if bodies else f"neither of the three in {_shown(line)}"
         raise BadReplyError(found, "exactly one of result, skipped, errored")
     _check_body(bodies[0], reply[bodies[0]])
-    return reply
 
 
 def outcome_of(reply: dict[str, Any], op: str, dialect: Dialect) -> Outcome:
