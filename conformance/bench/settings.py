@@ -81,7 +81,7 @@ FULL_SIZES: Final[Mapping[str, int]] = {op: 2 * size for op, size in QUICK_SIZES
 
 
 def quick(seed: int, sections: tuple[str, ...], fixtures: Path | None) -> Settings:
-    """Return the settings of a run of less than a minute."""
+    """Return the settings of a run of about a minute."""
     return Settings(
         seed=seed,
         sections=sections,

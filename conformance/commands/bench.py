@@ -43,7 +43,7 @@ _SEED_BITS: Final = 32
 def configure(parser: argparse.ArgumentParser) -> None:
     """Add the command's arguments."""
     options = parser.add_argument_group("what is measured", _METHOD)
-    options.add_argument("--quick", action="store_true", help="less of everything: under a minute")
+    options.add_argument("--quick", action="store_true", help="less of everything: about a minute")
     options.add_argument(
         "--native", action="store_true", help="compile the C++ yardstick and measure it, too"
     )
