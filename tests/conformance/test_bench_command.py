@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+from itertools import chain
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -19,10 +20,14 @@ from conformance.bench.scenes import make_scene
 from conformance.bench.settings import SECTIONS, Settings, full, quick
 from conformance.bench.timing import Comparison, DisagreementError
 from conformance.bench.variants import variants_of
+from conformance.case import Loaded
+from conformance.loader import BUILT_IN_CASES, load_paths
 
 if TYPE_CHECKING:
     from collections.abc import Callable
     from pathlib import Path
+
+    from conformance.case import Case
 
 SIZES = dict.fromkeys((ops.STRIKE, ops.STEP_DOWN, ops.FIND_COLLISIONS, ops.TOUCH), 8)
 COMPARED = Comparison(Summary(2.0, 1.5, 2.5), Summary(100.0, 90.0, 110.0), Summary(200.0, 190.0, 210.0), 5)
@@ -91,6 +96,24 @@ def test_shortcuts_are_measured_beside_none() -> None:
     assert {op for op, reference in found if reference == "engine, no shortcuts"} == shortened
     assert {op for op, reference in found if reference == "engine, as drawn"} == set(ops.ENGINE_OPS) - free
     assert len(found) == len(report.ratios) == 8
+
+
+def test_messages_are_measured_over_parts_of_the_suite(monkeypatch: pytest.MonkeyPatch) -> None:
+    """A quarter of it in a quick run, all of it in a whole one; no case twice."""
+    cases = load_paths([BUILT_IN_CASES / "contact"]).cases
+    assert len(cases) > 12
+    asked: list[list[Case]] = []
+    monkeypatch.setattr(benchmark, "load_paths", lambda: Loaded(cases))
+    monkeypatch.setattr(
+        benchmark, "measure_messages", lambda rounds, *_: asked.append([*chain.from_iterable(rounds)])
+    )
+    for size in (quick, full):
+        benchmark.measure(size(3, ("messages",), None), Report(3), lambda _: None)
+    some, every = asked
+    assert abs(len(some) - len(cases) / 4) <= 3
+    assert len(set(some)) == len(some)
+    assert set(every) == set(cases)
+    assert len(every) == len(cases)
 
 
 def test_curves_have_a_cost_for_each_size() -> None:

@@ -19,7 +19,6 @@ if TYPE_CHECKING:
 
     from conformance.query import Outcome, Query
 
-CASES = Path(__file__).parents[2] / "conformance" / "cases"
 MATH = VECTORS / "math.jsonl"
 SEED_BUG = ("--id", "fc_00001", "--id", "fc_00002", "--candidate", "bug:cell-origin")
 
