@@ -70,6 +70,17 @@ class Progress:
             self._status.update(text)
 
 
+def print_document(text: str) -> None:
+    """Print what is for a file or another program: in UTF-8 with line feeds, on any system.
+
+    Behind ``>`` Windows would write it in the console's old encoding, in which no reader here expects it.
+    """
+    reconfigure = getattr(sys.stdout, "reconfigure", None)
+    if reconfigure is not None and not sys.stdout.isatty():
+        reconfigure(encoding="utf-8", newline="\n")
+    sys.stdout.write(text)
+
+
 def tolerate_unprintable() -> None:
     """Let characters that the terminal's encoding lacks print as ``?`` instead of ending the run."""
     for stream in (sys.stdout, sys.stderr):

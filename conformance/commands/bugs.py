@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import argparse
 import json
-import sys
 from difflib import get_close_matches
 from pathlib import Path
 from typing import TYPE_CHECKING, Final
@@ -110,11 +109,11 @@ def _write_json(path: Path, records: list[Record]) -> None:
 
 
 def _print(records: list[Record], *, markdown: bool) -> None:
-    from conformance.console import make_console
+    from conformance.console import make_console, print_document
     from conformance.report.kills import kill_table, markdown_table, verdict
 
     if markdown:
-        sys.stdout.write(markdown_table(records))
+        print_document(markdown_table(records))
         return
     console = make_console()
     if not console.is_terminal:

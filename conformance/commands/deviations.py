@@ -89,6 +89,7 @@ def _list(args: argparse.Namespace) -> int:
 
 def _suggest(args: argparse.Namespace) -> int:
     from conformance.candidates.base import close
+    from conformance.console import print_document
     from conformance.deviations.drafts import draft
     from conformance.files import write_text
 
@@ -99,7 +100,7 @@ def _suggest(args: argparse.Namespace) -> int:
         close(candidate)
     text = draft(failures, engine=args.candidate)
     if args.output is None:
-        sys.stdout.write(text)
+        print_document(text)
     else:
         write_text(args.output, text)
     cases = f"{len(failures)} failing case{'' if len(failures) == 1 else 's'}"

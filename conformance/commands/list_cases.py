@@ -67,7 +67,7 @@ def configure(parser: argparse.ArgumentParser) -> None:
 def run(args: argparse.Namespace) -> int:
     """Print the chosen cases and return the exit code: 4 if there is none, 1 if files have mistakes."""
     from conformance.case import Vary
-    from conformance.console import make_console
+    from conformance.console import make_console, print_document
     from conformance.life.selection import Filters, hints
     from conformance.loader import NoCasesError, load_paths
 
@@ -78,8 +78,11 @@ def run(args: argparse.Namespace) -> int:
     filters = Filters(args.tag, args.function, args.op, args.path)
     chosen = [case for case in loaded.cases if filters.accept(case)]
     console, errors = make_console(), make_console(stderr=True)
-    for line in _shown(args, chosen, len(loaded.cases)):
-        console.print(line)
+    if args.json:
+        print_document(_records(chosen))
+    else:
+        for line in _shown(args, chosen, len(loaded.cases)):
+            console.print(line)
     if loaded.problems:
         count = len(loaded.problems)
         mistakes = "1 mistake keeps" if count == 1 else f"{count} mistakes keep"
@@ -92,12 +95,15 @@ def run(args: argparse.Namespace) -> int:
     return exit_codes.NOTHING_RAN
 
 
-def _shown(args: argparse.Namespace, chosen: Sequence[Case], total: int) -> Iterator[str]:
-    from conformance.life.selection import as_record, count
+def _records(chosen: Sequence[Case]) -> str:
+    from conformance.life.selection import as_record
 
-    if args.json:
-        yield json.dumps([as_record(case) for case in chosen], indent=1, ensure_ascii=False)
-        return
+    return json.dumps([as_record(case) for case in chosen], indent=1, ensure_ascii=False) + "\n"
+
+
+def _shown(args: argparse.Namespace, chosen: Sequence[Case], total: int) -> Iterator[str]:
+    from conformance.life.selection import count
+
     if args.count:
         yield from (f"{number:>6}  {word}" for word, number in count(chosen, args.count))
     else:

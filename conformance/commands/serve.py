@@ -38,11 +38,12 @@ def configure(parser: argparse.ArgumentParser) -> None:
 
 def run(args: argparse.Namespace) -> int:
     """Answer until a message says stop, or stdin ends."""
+    from conformance.console import print_document
     from conformance.protocol.json_schema import published_schema
     from conformance.protocol.server import Server
 
     if args.schema:
-        sys.stdout.write(published_schema())
+        print_document(published_schema())
         return exit_codes.OK
     server = Server(candidate_from(args), args.floats)
     with _take_stdout() as replies:

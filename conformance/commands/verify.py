@@ -175,6 +175,8 @@ def quoted(path: Path) -> str:
 
 
 def _print_json(results: list[tuple[Path, Tally]], total: Tally, candidate: str) -> None:
+    from conformance.console import print_document
+
     files = [
         {
             "file": str(path),
@@ -183,7 +185,7 @@ def _print_json(results: list[tuple[Path, Tally]], total: Tally, candidate: str)
         }
         for path, tally in results
     ]
-    sys.stdout.write(json.dumps({"candidate": candidate, "total": total.counts(), "files": files}) + "\n")
+    print_document(json.dumps({"candidate": candidate, "total": total.counts(), "files": files}) + "\n")
 
 
 def _failure_record(failure: Failure) -> dict[str, Any]:

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 from rich.console import Console
 
 from conformance import console as console_module
-from conformance.console import Progress, make_console, tolerate_unprintable
+from conformance.console import Progress, make_console, print_document, tolerate_unprintable
 
 if TYPE_CHECKING:
     import pytest
@@ -78,6 +78,26 @@ def test_unprintable_characters(monkeypatch: pytest.MonkeyPatch) -> None:
     stream.write("48.38°")
     stream.flush()
     assert stream.buffer.getvalue() == b"48.38?"  # type: ignore[attr-defined]
+
+
+def test_documents_are_for_files(monkeypatch: pytest.MonkeyPatch) -> None:
+    """UTF-8 and line feeds, whatever the console writes; behind what was printed before."""
+    stream = io.TextIOWrapper(io.BytesIO(), encoding="cp1252", newline="\r\n")
+    monkeypatch.setattr(sys, "stdout", stream)
+    stream.write("\N{DEGREE SIGN}")
+    print_document("SD-1…SD-12 → d\n")
+    stream.flush()
+    assert stream.buffer.getvalue() == b"\xb0" + "SD-1…SD-12 → d\n".encode()  # type: ignore[attr-defined]
+
+
+def test_documents_on_a_terminal(monkeypatch: pytest.MonkeyPatch) -> None:
+    """There they are text as any other."""
+    stream = io.TextIOWrapper(io.BytesIO(), encoding="ascii", errors="replace")
+    monkeypatch.setattr(stream, "isatty", lambda: True, raising=False)
+    monkeypatch.setattr(sys, "stdout", stream)
+    print_document("→")
+    stream.flush()
+    assert stream.buffer.getvalue() == b"?"  # type: ignore[attr-defined]
 
 
 def test_progress_without_a_terminal(monkeypatch: pytest.MonkeyPatch) -> None:
