@@ -38,7 +38,6 @@ from conformance.scenes.validate import check_rotation
 from conformance.vector_library import Library
 
 VECTORS = Path(conformance.__file__).parent / "vectors"
-MATH_OPS = {"adjust_offset", "cache_localspace_sphere", "cliff_slide", "slide_sphere"}
 NOT_INPUTS = {"id", "op", "tag", "expect", "uncertain"}
 HALF_ROOT = 0.7071067690849304
 TURN = Transform((HALF_ROOT, 0.0, 0.0, HALF_ROOT), (10.0, 20.0, 30.0))

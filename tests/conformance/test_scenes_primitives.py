@@ -48,11 +48,6 @@ EXAMPLES: dict[str, dict[str, Any]] = {
 }
 
 
-def with_opening(**opening: object) -> dict[str, Any]:
-    """Return the parameters of a room with an opening."""
-    return {"size": (4, 5, 3), "openings": [opening]}
-
-
 def total_area(shape: Shape) -> float:
     """Return the area of all polygons."""
     return sum(length(area_vector(corners)) for corners in shape)

@@ -186,7 +186,7 @@ def test_a_lane_that_is_not_ready_is_waited_for() -> None:
     share[LANE_INTS + LANE_BEGUN] = 1
     thread = Thread(target=strike_all, args=(order, share))
     thread.start()
-    while share[LANE_INTS + LANE_BEGUN] == 1:
+    while share[LANE_INTS + LANE_BEGUN] == 1 and thread.is_alive():
         sleep(0)
     assert share[SHARE_DONE] == 0
     share[LANE_INTS + LANE_READY] = 1
