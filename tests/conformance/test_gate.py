@@ -5,17 +5,15 @@ from __future__ import annotations
 import datetime as dt
 import hashlib
 import json
-import re
-import shlex
 from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 from xml.etree import ElementTree as ET
 
 import pytest
-import yaml
 from deviation_files import FAILING, ORIGIN, deviation_file
-from faux import faux_command, serve_command
+from faux import faux_command
+from gate_command import TWO_CASES, Gate
 from hypothesis import given
 from hypothesis import strategies as st
 from shipped_cases import shipped_cases
@@ -24,18 +22,16 @@ from conformance import exit_codes
 from conformance.candidates.known_bugs import list_bugs
 from conformance.candidates.oracle_candidate import OracleCandidate
 from conformance.candidates.registry import make_candidate
-from conformance.cli import _make_parser, main
 from conformance.compare import Difference
-from conformance.deviations.files import Deviations, read_deviations
+from conformance.deviations.files import Deviations
 from conformance.deviations.reckoning import reckon
-from conformance.gate import config, digests, pages, pinned, speed
+from conformance.gate import config, digests, pages, pinned
 from conformance.gate.evidence import EvidenceError, badge_record, passed_before
 from conformance.gate.junit import junit_xml
-from conformance.gate.outcome import VERDICTS, Check, GateRun, Stage, Status
+from conformance.gate.outcome import Check, GateRun, Stage, Status
 from conformance.gate.pinned import judged
-from conformance.gate.speed import Baseline, BaselineError, measure_ratio, read_baseline
 from conformance.loader import Vary, load_file
-from conformance.query import Query, Result, Skipped
+from conformance.query import Query
 from conformance.report.html.library import MissingVizError
 from conformance.shapes import Kind
 from conformance.verdict import Failure, Verdict, judge
@@ -43,51 +39,15 @@ from conformance.verdict import Failure, Verdict, judge
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
-ROOT = Path(__file__).parents[2]
-DOCS = ROOT / "docs"
 BUGS = {bug.id: bug for bug in list_bugs() if bug.case}
 assert BUGS, "no known bugs with a case"
 TODAY = dt.date(2030, 1, 1)
-SLOWED = """
-from conformance.candidates.oracle_candidate import OracleCandidate
-
-
-class Slowed(OracleCandidate):
-    def answer(self, query):
-        return [super(Slowed, self).answer(query) for _ in range(4)][-1]
-"""
-"""A candidate that is right, and takes four times as long as it might."""
-TWO_CASES = "cases: [{}]\nposes: {{count: 0}}\nwalks: {{count: 0}}\n"
 
 
 @pytest.fixture
 def gate(tmp_path: Path) -> Gate:
     """Return the command, on the two cases about a cell's origin."""
     return Gate(tmp_path)
-
-
-class Gate:
-    """The command with a configuration of two cases, and the evidence that it writes."""
-
-    def __init__(self, folder: Path) -> None:
-        self.folder = folder
-        self.config = folder / "gate.yaml"
-        self.config.write_text(TWO_CASES.format(json.dumps(str(ORIGIN))), encoding="utf-8")
-
-    def __call__(self, *words: object, candidate: str = "oracle", stage: str = "cases") -> int:
-        """Run it."""
-        options = ("--config", self.config, "-o", self.evidence, "--candidate", candidate, "--stage", stage)
-        return main(["gate", *map(str, options), *map(str, words)])
-
-    @property
-    def evidence(self) -> Path:
-        """Where it writes."""
-        return self.folder / "evidence"
-
-    def summary(self) -> dict[str, Any]:
-        """Return what it has written."""
-        found: dict[str, Any] = json.loads((self.evidence / "summary.json").read_text(encoding="utf-8"))
-        return found
 
 
 def run_of(*statuses: Status, asked: Sequence[Stage] = (Stage.CASES,), whole: bool = True) -> GateRun:
@@ -391,150 +351,3 @@ def test_digests_change_with_what_they_are_of() -> None:
     asked = [(case, None), (other, None), (case, one), (case, two)]
     assert len({digests.case_digest(which, poses, "s", "c") for which, poses in asked}) == len(asked)
     assert digests.case_digest(case, None, "s", "") == ""
-
-
-class Slow:
-    """Answers the same, after counting how often it is asked."""
-
-    def __init__(self, name: str, *, skips: bool = False) -> None:
-        self.name = name
-        self.skips = skips
-        self.asked = 0
-
-    def answer(self, _query: Query) -> Result | Skipped:
-        """Answer."""
-        self.asked += 1
-        return Skipped("no") if self.skips else Result({})
-
-
-def test_both_are_asked_as_often() -> None:
-    """One round more than is timed; what one of them skips is not timed."""
-    queries = [Query("walk", {}), Query("walk", {})]
-    first, second = Slow("a"), Slow("b")
-    ratio, count = measure_ratio(queries, first, second, lambda _text: None)
-    assert count == 2
-    assert ratio is not None
-    assert 0.0 < ratio.low <= ratio.middle <= ratio.high
-    assert first.asked == second.asked == 2 * 6
-    assert measure_ratio(queries, Slow("a", skips=True), second, lambda _text: None) == (None, 0)
-
-
-def test_baselines(tmp_path: Path) -> None:
-    """Read as written; of other queries, beside another Python, or no baseline at all, refused."""
-    path = tmp_path / "baseline.json"
-    baseline = Baseline("engine", 40.0, 39.0, 42.0, "abc", speed.PYTHON)
-    path.write_text(baseline.to_json(), encoding="utf-8")
-    assert read_baseline(path, "abc") == baseline
-    with pytest.raises(BaselineError, match="measured with other cases"):
-        read_baseline(path, "abd")
-    path.write_text(replace(baseline, python="2.7").to_json(), encoding="utf-8")
-    with pytest.raises(BaselineError, match=r"found Python 2\.7, expected 3\."):
-        read_baseline(path, "abc")
-    for text in ("{", "[]", '{"candidate": "x"}', replace(baseline, ratio=0.0).to_json()):
-        path.write_text(text, encoding="utf-8")
-        with pytest.raises(BaselineError):
-            read_baseline(path, "abc")
-
-
-@pytest.fixture
-def walking(gate: Gate, monkeypatch: pytest.MonkeyPatch) -> Gate:
-    """Return the command on walks, of which it times one, in three rounds."""
-    walks = ROOT / "conformance" / "cases" / "worlds" / "ends.yaml"
-    monkeypatch.setattr(speed, "ROUNDS", 3)
-    monkeypatch.setattr(speed, "MOST_QUERIES", 1)
-    gate.config.write_text(f"cases: [{json.dumps(str(walks))}]\n", encoding="utf-8")
-    return gate
-
-
-def test_speed_is_held_against_the_baseline(
-    walking: Gate, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
-) -> None:
-    """What is as fast as it was passes; what asks retail four times for each answer does not."""
-    now, answer = [0.0], OracleCandidate.answer
-
-    def answer_in_a_second(oracle: OracleCandidate, query: Query) -> Any:
-        now[0] += 1.0
-        return answer(oracle, query)
-
-    monkeypatch.setattr(OracleCandidate, "answer", answer_in_a_second)
-    monkeypatch.setattr(speed, "perf_counter", lambda: now[0])
-    (walking.folder / "slowed.py").write_text(SLOWED, encoding="utf-8")
-    monkeypatch.chdir(walking.folder)
-    stored = walking.folder / "baseline.json"
-    assert walking("--write-baseline", stored, stage="performance") == exit_codes.OK
-    assert json.loads(stored.read_text(encoding="utf-8"))["ratio"] == 1.0
-    against = ("--baseline", stored)
-    assert walking(*against, stage="performance") == exit_codes.OK
-    assert walking(*against, candidate="mod:slowed:Slowed", stage="performance") == exit_codes.FAILURES
-    told = (
-        "the oracle takes 0.25 (0.25 - 0.25) times as long; stored 1 (1 - 1) of oracle, at least 0.7 demanded"
-    )
-    assert f"  walks: {told}\n" in capsys.readouterr().out
-    (check,) = walking.summary()["checks"]
-    assert (check["stage"], check["status"]) == ("performance", "failed")
-
-
-def test_an_engine_in_a_process_has_a_speed_too(walking: Gate) -> None:
-    """Messages are part of it; it passes against what it can reach, and not against a hundred times that."""
-    walking.config.write_text(
-        walking.config.read_text(encoding="utf-8") + "performance: {baseline: b.json, at_least: 0.01}\n",
-        encoding="utf-8",
-    )
-    command, stored = f"cmd:{serve_command('--candidate', 'oracle')}", walking.folder / "b.json"
-    assert walking("--write-baseline", stored, candidate=command, stage="performance") == exit_codes.OK
-    assert walking(candidate=command, stage="performance") == exit_codes.OK
-    record = json.loads(stored.read_text(encoding="utf-8"))
-    stored.write_text(json.dumps({**record, "ratio": 1e4 * record["ratio"]}), encoding="utf-8")
-    assert walking(candidate=command, stage="performance") == exit_codes.FAILURES
-
-
-def test_a_stage_of_speed_needs_a_baseline(walking: Gate, capsys: pytest.CaptureFixture[str]) -> None:
-    """2, and how to make one."""
-    assert walking(stage="performance") == exit_codes.USAGE
-    assert "--write-baseline makes one" in capsys.readouterr().err
-
-
-def test_the_page_shows_a_configuration_that_is_read(tmp_path: Path) -> None:
-    """Every key of it, and every key there is."""
-    page = (DOCS / "gate.md").read_text(encoding="utf-8")
-    (text,) = re.findall(r"^```yaml\n(.*?)^```", page, re.DOTALL | re.MULTILINE)
-    path = tmp_path / "gate.yaml"
-    path.write_text(text, encoding="utf-8")
-    changed = config.read_config(path, config.QUICK)
-    assert (changed.walks, changed.least_ratio) == (config.Draws(count=4, seed=7), 0.8)
-    assert set(re.findall(r"^(\w+):", text, re.MULTILINE)) == set(config.GateFile.model_fields)
-
-
-def test_the_page_tells_the_presets() -> None:
-    """Their numbers, as they are."""
-    page = (DOCS / "gate.md").read_text(encoding="utf-8")
-    for stage, presets in (("poses", "poses"), ("walks", "walks")):
-        counts = [getattr(one, presets).count for one in (config.QUICK, config.STANDARD, config.FULL)]
-        (row,) = re.findall(rf"^\| `{stage}` \|.*$", page, re.MULTILINE)
-        assert row.endswith(f"| {counts[0]} | {counts[1]} | {counts[2]} |")
-    for code in VERDICTS:
-        assert f"\n| {code} | " in page
-
-
-def test_the_workflow_runs_commands_that_there_are() -> None:
-    """It is YAML, and each of its gates is one that the command line understands."""
-    text = (DOCS / "examples" / "gate.yml").read_text(encoding="utf-8")
-    steps = yaml.safe_load(text)["jobs"]["gate"]["steps"]
-    lines = "\n".join(step["run"] for step in steps if "run" in step).replace("\\\n", " ").splitlines()
-    asked = [shlex.split(line.replace("${skip:-}", "")) for line in lines if "conformance gate" in line]
-    assert len(asked) == 2
-    for words in asked:
-        assert words[0] == "conformance"
-        assert _make_parser().parse_args(words[1:]).command == "gate"
-
-
-def test_the_page_of_deviations_shows_a_file_that_is_read(tmp_path: Path) -> None:
-    """It is the deviation of the bug that the tests use."""
-    page = (DOCS / "deviations.md").read_text(encoding="utf-8")
-    (text,) = re.findall(r"^```yaml\n(.*?)^```", page, re.DOTALL | re.MULTILINE)
-    path = tmp_path / "mine.yaml"
-    path.write_text(text, encoding="utf-8")
-    (entry,) = read_deviations(path).entries
-    assert entry.deviation.case == FAILING
-    for key in type(entry.deviation).model_fields:
-        assert f"| `{key}` |" in page
