@@ -103,6 +103,11 @@ def pytest_configure(config: pytest.Config) -> None:
     config.stash[_TALLY] = Tally()
     config.pluginmanager.register(config.stash[_TALLY], "conformance-tally")
     config.stash[_EXPECTS_CASES] = bool(given) or _covers(config, BUILT_IN_CASES)
+    if config.stash[_EXPECTS_CASES]:
+        # Where the terminal lacks one character pytest would escape a failure whole, line ends included.
+        from conformance.console import tolerate_unprintable
+
+        tolerate_unprintable()
     found = _found_cases(config) if config.stash[_EXPECTS_CASES] else []
     config.stash[_FOLDERS] = tuple(given or [BUILT_IN_CASES])
     config.args[:] = [

@@ -118,6 +118,15 @@ def test_the_bug_that_this_suite_began_with(run: pytest.Pytester) -> None:
     )
 
 
+def test_a_failure_on_a_terminal_of_few_characters(
+    run: pytest.Pytester, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """What it cannot show is a question mark; lines stay lines."""
+    monkeypatch.setenv("PYTHONIOENCODING", "ascii")
+    result = run.runpytest_subprocess("--cases", str(ORIGIN), "--candidate", "bug:cell-origin")
+    result.stdout.fnmatch_lines(["  contact_plane.d *-94.0*", "  retail: *SD-1?SD-12*"])
+
+
 def test_the_same_over_workers(run: pytest.Pytester) -> None:
     """With pytest-xdist the ids, results, reasons and counts are those of one process."""
     pytest.importorskip("xdist")
