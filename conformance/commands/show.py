@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import sys
 from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Final
@@ -76,10 +75,10 @@ def run(args: argparse.Namespace) -> int:
 
 
 def _show_messages(query: Query, dialect: Dialect) -> int:
+    from conformance.console import print_document
     from conformance.protocol.transcript import messages_of
 
-    for line in messages_of(query, dialect):
-        sys.stdout.write(line.decode("utf-8"))
+    print_document(b"".join(messages_of(query, dialect)).decode("utf-8"))
     return exit_codes.OK
 
 
