@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import shlex
 from dataclasses import replace
 from typing import TYPE_CHECKING, Any, Final
 
@@ -13,6 +12,7 @@ from conformance.deviations.known import deviations_of, today
 from conformance.deviations.reckoning import reckon
 from conformance.loader import Vary, duplicate_id, load_file
 from conformance.plugin import CANDIDATES
+from conformance.protocol.process import command_line
 from conformance.summary import PROPERTY
 from conformance.trace_excerpt import excerpt
 from conformance.traced import parse_topics
@@ -202,7 +202,7 @@ class CaseItem(pytest.Item):
                 parts += [option, str(value)]
         for folder in self.config.getoption("--cases", ()):
             parts += ["--cases", str(folder)]
-        return shlex.join(parts)
+        return command_line(parts)
 
 
 def candidate_of(config: pytest.Config, spec: str) -> Candidate:
