@@ -3,14 +3,13 @@
 from __future__ import annotations
 
 import copy
-from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
+from shipped_vectors import VECTORS, records
 
-import conformance
 from conformance.query import Query
 from conformance.scenes.block_shifts import (
     has_land,
@@ -21,10 +20,10 @@ from conformance.scenes.block_shifts import (
 )
 from conformance.scenes.poses import moved_queries, shift_query
 from conformance.scenes.random_poses import seeded_shifts
-from conformance.vector_io import VectorRecord, read_vectors
-from conformance.vector_library import Library
 
-VECTORS = Path(conformance.__file__).parent / "vectors"
+if TYPE_CHECKING:
+    from conformance.vector_io import VectorRecord
+
 FILES = ("terrain.jsonl", "cells.jsonl", "world_transition.jsonl", "world_walk.jsonl")
 BYTES = st.integers(0, 255)
 POSE = {"cell": 0xA9B40011, "origin": [1.0, 2.0, 3.0], "rotation": [1.0, 0.0, 0.0, 0.0]}
@@ -32,11 +31,9 @@ POSE = {"cell": 0xA9B40011, "origin": [1.0, 2.0, 3.0], "rotation": [1.0, 0.0, 0.
 
 def land_records() -> dict[str, VectorRecord]:
     """Return the first shipped record of each operation in a world."""
-    library = Library(VECTORS)
     found: dict[str, VectorRecord] = {}
     for name in FILES:
-        for record in read_vectors(VECTORS / name, library):
-            assert isinstance(record, VectorRecord)
+        for record in records(VECTORS / name):
             if "world" in record.query.inputs:
                 found.setdefault(record.query.op, record)
     assert len(found) == 11

@@ -36,6 +36,7 @@ def far(shape: Shape) -> tuple[list[Cell], dict[int, list[Obstacle]]]:
     return [Cell(cell, Pose(cell), shape, things[cell]) for cell in ids], {}
 
 
+@pytest.fixture(scope="module")
 def worlds() -> tuple[World, World]:
     """Return the small world, and the same one among others; the others come first."""
     cells, shadows = near()
@@ -45,31 +46,33 @@ def worlds() -> tuple[World, World]:
     return World(cells, blocks, (), shadows), World([*others, *cells], [*more, *blocks], (), shadows)
 
 
-SMALL, LARGE = worlds()
 LEVEL = ContactPlane((0, 0, 1, 0), HALL)
 WALKER = Mover([(0, 0, 0, R), (0, 0, 0.875, R)], state=3, step_up_height=0.6, step_down_height=1.5)
 
 
 @pytest.mark.parametrize("cell", [HALL, LAND])
 @pytest.mark.parametrize("end", [(-1.5, 0.0, R), (-2.0, 1.0, R), (0.5, 0.5, R), (-0.5, -0.5, R + 2)])
-def test_the_counters_do_not_grow_with_the_world(cell: int, end: tuple[float, ...]) -> None:
+def test_the_counters_do_not_grow_with_the_world(
+    cell: int, end: tuple[float, ...], worlds: tuple[World, World]
+) -> None:
     """The same nodes, polygons, cells and objects are looked at; and the answers are the same."""
     move = Move(WALKER, Pose(cell, end), cell, start=Pose(cell, (-0.5, 0.25, R)), seed=Seed(LEVEL, LEVEL))
-    small, large = (resolve_many(world, [move])[0] for world in (SMALL, LARGE))
+    small, large = (resolve_many(world, [move])[0] for world in worlds)
     assert [small[name] for name in COUNTERS] == [large[name] for name in COUNTERS]
     assert small["cells_listed"] > 0
     assert small["objects_tested"] > 0
     assert small["curr"].tobytes() == large["curr"].tobytes()
 
 
-def test_the_large_world_is_large() -> None:
+def test_the_large_world_is_large(worlds: tuple[World, World]) -> None:
     """And only what is in the row's lists has room for all of it: it is not cleared."""
-    assert LARGE.num_objects == SMALL.num_objects + 10_000
-    assert len(LARGE.cell_ids) == len(SMALL.cell_ids) + 1000 + 4 * 64
-    assert at.STATE_SIZE < len(SMALL.new_row()) < len(LARGE.new_row())
+    small, large = worlds
+    assert large.num_objects == small.num_objects + 10_000
+    assert len(large.cell_ids) == len(small.cell_ids) + 1000 + 4 * 64
+    assert at.STATE_SIZE < len(small.new_row()) < len(large.new_row())
 
 
-def test_ids_are_found_without_a_search_through_the_world() -> None:
+def test_ids_are_found_without_a_search_through_the_world(worlds: tuple[World, World]) -> None:
     """The table has at least four entries for each, so that few lie in another's way."""
-    entries = int(LARGE.ints[at.WORLD_IDS_MASK]) + 1
+    entries = int(worlds[1].ints[at.WORLD_IDS_MASK]) + 1
     assert entries >= 4 * (1002 + 5)
