@@ -5,9 +5,11 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Any
 
 from engine.coherence import order_for
+from engine.errors import QueryError
 from engine.plan import NO_PLAN, Plan
 from engine.threads import together
 from engine.tracing import runnable
+from engine.world import CHECK_WORLD
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Sequence
@@ -53,8 +55,9 @@ def answer(
     Raises
     ------
     QueryError
-        If `threads` is not a number of threads.
+        If `world` is none, or `threads` is not a number of threads.
     """
+    CHECK_WORLD(world, "world", QueryError)
     run = runnable(kernel)
     order = order_for(count, threads, coherent=coherent)
 

@@ -14,6 +14,7 @@ from engine.constants import ACTIVE_TS, DEFAULT_ELASTICITY, DEFAULT_FRICTION, DE
 from engine.errors import QueryError
 from engine.float32 import float32_array
 from engine.pose import Pose, check_pose, position_row
+from engine.world import CHECK_WORLD
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -149,6 +150,7 @@ def body_rows(world: World, bodies: Sequence[Body]) -> Rows:
     QueryError, PoseError
         Naming the body and what is wrong with it.
     """
+    CHECK_WORLD(world, "world", QueryError)
     sequence(bodies, "bodies", QueryError)
     rows = np.zeros(len(bodies), dtype=BODY_DTYPE)
     for index, body in enumerate(bodies):

@@ -13,6 +13,7 @@ from engine import layout as at
 from engine.checks import LARGEST_INDEX, record, sequence, whole
 from engine.errors import QueryError
 from engine.query import CHECK_MOVE, Move, PathState, fill_call, fill_path
+from engine.world import CHECK_WORLD
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -67,6 +68,7 @@ _CHECK_CALL: Final = record(
 
 def object_rows(world: World, calls: Sequence[ObjectCall]) -> Rows:
     """Return a row for each call; raises `QueryError` or `PoseError` naming the call."""
+    CHECK_WORLD(world, "world", QueryError)
     sequence(calls, "calls", QueryError)
     rows = np.zeros(len(calls), dtype=at.QUERY_DTYPE)
     for index, call in enumerate(calls):

@@ -14,6 +14,7 @@ from engine.effort import check_way
 from engine.errors import QueryError
 from engine.float32 import float32_array
 from engine.pose import Pose, check_pose, pose_row
+from engine.world import CHECK_WORLD
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -205,6 +206,7 @@ _CHECK_CALL: Final = record(
 
 def move_rows(world: World, moves: Sequence[Move]) -> Rows:
     """Return a row for each move; raises `QueryError` or `PoseError` naming the move."""
+    CHECK_WORLD(world, "world", QueryError)
     sequence(moves, "moves", QueryError)
     rows = np.zeros(len(moves), dtype=at.QUERY_DTYPE)
     for index, move in enumerate(moves):
@@ -226,6 +228,7 @@ def fill_call(row: Any, world: World, move: Move, where: str) -> None:
 
 def collision_rows(world: World, calls: Sequence[CollisionCall]) -> Rows:
     """Return a row for each call; raises `QueryError` or `PoseError` naming the call."""
+    CHECK_WORLD(world, "world", QueryError)
     sequence(calls, "calls", QueryError)
     rows = np.zeros(len(calls), dtype=at.QUERY_DTYPE)
     for index, call in enumerate(calls):

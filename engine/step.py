@@ -143,6 +143,8 @@ def update_many(
 
 def _ready(rows: Rows) -> Array:
     """Return rows as kernels see them, if they can tick."""
+    if not isinstance(rows, np.ndarray):
+        raise QueryError("rows", f"{type(rows).__name__} where an array of BODY_DTYPE is needed")
     _check_type(rows.dtype)
     if not rows.flags.c_contiguous:
         raise QueryError("rows", "not contiguous")

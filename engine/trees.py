@@ -13,6 +13,7 @@ from engine.errors import QueryError
 from engine.given import room, rooms
 from engine.kernels import tree_calls
 from engine.plan import CALL_PLAN, Plan
+from engine.world import CHECK_WORLD
 
 if TYPE_CHECKING:
     import numpy.typing as npt
@@ -166,6 +167,7 @@ def step_down_many(
 
 
 def _tree(world: World, cell: int) -> int:
+    CHECK_WORLD(world, "world", QueryError)
     _WHOLE(cell, "cell", QueryError)
     if not 0 <= cell < len(world.cell_ids):
         raise QueryError("cell", f"{cell} does not exist ({len(world.cell_ids)} cells)")

@@ -8,7 +8,7 @@ import numpy as np
 
 from engine import layout as at
 from engine.cells import CHECK_CELL, CHECK_RESTRICTION
-from engine.checks import keyed, optional, several
+from engine.checks import keyed, optional, record, several
 from engine.compiling.balls import write_plates
 from engine.compiling.bounds import write_bounds
 from engine.compiling.cells import CellNumbers, ObjectLists, write_buildings, write_cells
@@ -266,3 +266,7 @@ def _unique_shapes(
         if shape is not None and id(shape) not in seen:
             seen.add(id(shape))
             yield shape
+
+
+CHECK_WORLD: Final = record(World)
+"""What every question asks first of the world that it is about."""

@@ -37,11 +37,17 @@ from engine import (
     Weenie,
     World,
     find_collisions,
+    find_collisions_many,
     find_object_collisions,
+    find_object_collisions_many,
     resolve,
     resolve_many,
     step,
+    step_many,
+    strike_many,
 )
+from engine import layout as at
+from engine.body_layout import BODY_DTYPE
 from engine.checks import finite, flag, keyed, number, optional, record, several, told, whole
 
 if TYPE_CHECKING:
@@ -250,3 +256,29 @@ def test_what_is_told_is_short() -> None:
         "'a'",
         "a value of type list",
     ]
+
+
+@pytest.mark.parametrize("world", [None, 3, ()])
+def test_what_is_no_world_is_told(world: Any) -> None:
+    """Every question refuses what is no world, whatever else it is given."""
+    rows = np.zeros(1, at.QUERY_DTYPE)
+    bodies = np.zeros(1, BODY_DTYPE)
+    questions: list[Callable[[], Any]] = [
+        lambda: resolve_many(world, rows),
+        lambda: resolve_many(world, []),
+        lambda: find_collisions_many(world, rows),
+        lambda: find_collisions_many(world, []),
+        lambda: find_object_collisions_many(world, []),
+        lambda: strike_many(world, 0, [[0.0, 0.0, 0.0, 1.0]], [[0.0, 0.0, 1.0]]),
+        lambda: step_many(world, bodies, 0.1, 1),
+    ]
+    for ask in questions:
+        with pytest.raises(QueryError, match=r"^world: .* where a World is needed$"):
+            ask()
+
+
+def test_bodies_are_rows() -> None:
+    """What ticks together is an array, and a list of bodies is told so."""
+    world = World([Cell(CELL, Pose(CELL, (0.0, 0.0, 0.0)), FLOOR)])
+    with pytest.raises(QueryError, match=r"^rows: list where an array of BODY_DTYPE is needed$"):
+        step_many(world, [Body(HERE)], 0.1, 1)  # type: ignore[arg-type]
