@@ -37,8 +37,6 @@ from engine.layout import (
 if TYPE_CHECKING:
     from engine.kernels.types import Array, Ints, Vector
 
-_SECOND_SPHERE = LOCALSPACE_SPHERE + SPHERE_SIZE
-
 
 @inlined
 def center_check_flag(s: Array) -> int:
@@ -49,12 +47,6 @@ def center_check_flag(s: Array) -> int:
     return 0 if s[BLDG_CHECK] != 0.0 and s[HITS_INTERIOR_CELL] != 0.0 else 1
 
 
-@inlined
-def _touches_solid(wf: Array, wi: Ints, s: Array, root: int, at: int, flag: int) -> bool:
-    x, y, z = load(s, at)
-    return sphere_intersects_solid(wf, wi, s, root, x, y, z, s[at + RADIUS], flag)
-
-
 @kernel
 def find_room(wf: Array, wi: Ints, s: Array, root: int) -> int:
     """Path 1: no sphere may touch solid matter.
@@ -62,12 +54,14 @@ def find_room(wf: Array, wi: Ints, s: Array, root: int) -> int:
     retail: FC-2, FC-3
     """
     flag = center_check_flag(s)
-    if _touches_solid(wf, wi, s, root, LOCALSPACE_SPHERE, flag):
-        return COLLIDED
-    if s[NUM_SPHERE] <= 1.0:
-        return OK
-    enter_second_sphere(s)
-    return COLLIDED if _touches_solid(wf, wi, s, root, _SECOND_SPHERE, flag) else OK
+    for i in range(max(int(s[NUM_SPHERE]), 1)):
+        if i != 0:
+            enter_second_sphere(s)
+        at = LOCALSPACE_SPHERE + SPHERE_SIZE * i
+        x, y, z = load(s, at)
+        if sphere_intersects_solid(wf, wi, s, root, x, y, z, s[at + RADIUS], flag):
+            return COLLIDED
+    return OK
 
 
 @kernel

@@ -135,13 +135,16 @@ def _leaf_overlap(wf: Array, wi: Ints, s: Array, leaf: int, x: float, y: float, 
     if is_wide(wi, leaf):
         return wide_leaf_overlap(wf, wi, s, leaf, x, y, z, r)
     first, count = leaf_polygons(wi, leaf)
-    for i in range(first, first + count):
-        p = wi[unsigned(i)]
-        s[POLYGONS_TESTED] += 1
+    found = NO_POLYGON
+    tested = 0
+    while tested < count and found == NO_POLYGON:
+        p = wi[unsigned(first + tested)]
+        tested += 1
         code, _, _, _ = polygon_hits_sphere_slow_but_sure(wf, p, x, y, z, r)
         if code == HIT:
-            return p
-    return NO_POLYGON
+            found = p
+    s[POLYGONS_TESTED] += tested
+    return found
 
 
 @entry
@@ -160,35 +163,38 @@ def sphere_intersects_solid(
     node = root
     check = center_check
     reach = r - EPS
+    nodes = 0
+    solid = False
     while True:
-        s[NODES_VISITED] += 1
+        nodes += 1
         if is_leaf(wi, node):
             _, count = leaf_polygons(wi, node)
             if count != 0:
-                if check != 0 and is_solid(wi, node):
-                    return True
-                if _leaf_overlap(wf, wi, s, node, x, y, z, r) != NO_POLYGON:
-                    return True
+                solid = check != 0 and is_solid(wi, node)
+                if solid or _leaf_overlap(wf, wi, s, node, x, y, z, r) != NO_POLYGON:
+                    solid = True
+                    break
         elif in_bounds(wf, node, x, y, z, r):
             dist = splitting_distance(wf, node, x, y, z)
-            side = side_of(dist, reach)
-            if side == BOTH_SIDES:
+            if dist >= reach:
+                node = positive(node)
+            elif dist <= -reach:
+                node = negative(wi, node)
+            else:
                 in_front = not dist < 0.0
                 s[unsigned(top)] = 2 * negative(wi, node) + (0 if in_front else check)
                 top += 1
                 node = positive(node)
                 check = check if in_front else 0
-            elif side == POSITIVE_SIDE:
-                node = positive(node)
-            else:
-                node = negative(wi, node)
             continue
         if top == base:
-            return False
+            break
         top -= 1
         packed = int(s[unsigned(top)])
         node = packed >> 1
         check = packed & 1
+    s[NODES_VISITED] += nodes
+    return solid
 
 
 @entry

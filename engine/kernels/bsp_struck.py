@@ -38,16 +38,17 @@ from engine.layout import (
 if TYPE_CHECKING:
     from engine.kernels.types import Array, Ints, Vector
 
-_SECOND_SPHERE = LOCALSPACE_SPHERE + SPHERE_SIZE
-
 
 @inlined
 def _strikes(
-    wf: Array, wi: Ints, s: Array, root: int, at: int, mx: float, my: float, mz: float, poly: int
+    wf: Array, wi: Ints, s: Array, root: int, sphere: int, mx: float, my: float, mz: float
 ) -> tuple[bool, int]:
-    """Search for the polygon that the sphere at `at` in the row strikes."""
+    """Search for the polygon that one of the row's spheres strikes."""
+    if sphere != 0:
+        enter_second_sphere(s)
+    at = LOCALSPACE_SPHERE + SPHERE_SIZE * sphere
     x, y, z = load(s, at)
-    return sphere_intersects_poly(wf, wi, s, root, x, y, z, s[at + RADIUS], mx, my, mz, poly)
+    return sphere_intersects_poly(wf, wi, s, root, x, y, z, s[at + RADIUS], mx, my, mz, NO_POLYGON)
 
 
 @inlined
@@ -74,24 +75,22 @@ def collide_in_contact(wf: Array, wi: Ints, s: Array, root: int, mx: float, my: 
 
     retail: FC-8...FC-11, BSPTREE::step_sphere_up 0x00539F20, BSPTREE::slide_sphere 0x00539E50
     """
-    struck, poly = _strikes(wf, wi, s, root, LOCALSPACE_SPHERE, mx, my, mz, NO_POLYGON)
-    if struck:
-        x, y, z = _response_normal(wf, s, poly)
-        store(s, REQUESTED_NORMAL, x, y, z)
-        return NEEDS_STEP_UP
-    if s[NUM_SPHERE] <= 1.0:
+    spheres = max(int(s[NUM_SPHERE]), 1)
+    first = poly = NO_POLYGON
+    for i in range(spheres):
+        first = poly
+        struck, poly = _strikes(wf, wi, s, root, i, mx, my, mz)
+        if struck:
+            x, y, z = _response_normal(wf, s, poly)
+            store(s, REQUESTED_NORMAL, x, y, z)
+            return NEEDS_STEP_UP if i == 0 else slide_sphere(s, REQUESTED_NORMAL)
+    if spheres == 1:
         return OK
-    enter_second_sphere(s)
-    struck, poly2 = _strikes(wf, wi, s, root, _SECOND_SPHERE, mx, my, mz, NO_POLYGON)
-    if struck:
-        x, y, z = _response_normal(wf, s, poly2)
-        store(s, REQUESTED_NORMAL, x, y, z)
-        return slide_sphere(s, REQUESTED_NORMAL)
-    if poly2 != NO_POLYGON:
-        x, y, z = _global_normal(wf, s, poly2)
-        set_neg_poly_hit(s, 0.0, x, y, z)
-    elif poly != NO_POLYGON:
+    if poly != NO_POLYGON:
         x, y, z = _global_normal(wf, s, poly)
+        set_neg_poly_hit(s, 0.0, x, y, z)
+    elif first != NO_POLYGON:
+        x, y, z = _global_normal(wf, s, first)
         set_neg_poly_hit(s, 1.0, x, y, z)
     return OK
 
@@ -102,19 +101,17 @@ def collide_in_air(wf: Array, wi: Ints, s: Array, root: int, mx: float, my: floa
 
     retail: FC-13, FC-14
     """
-    _, poly = _strikes(wf, wi, s, root, LOCALSPACE_SPHERE, mx, my, mz, NO_POLYGON)
-    if poly != NO_POLYGON:
+    for i in range(max(int(s[NUM_SPHERE]), 1)):
+        _, poly = _strikes(wf, wi, s, root, i, mx, my, mz)
+        if poly == NO_POLYGON:
+            continue
         x, y, z = _global_normal(wf, s, poly)
+        if i != 0:
+            set_collision_normal(s, x, y, z)
+            return COLLIDED
         set_collide(s, x, y, z)
         s[WALKABLE_ALLOWANCE] = Z_LANDING
         return ADJUSTED
-    if s[NUM_SPHERE] > 1.0:
-        enter_second_sphere(s)
-        _, poly = _strikes(wf, wi, s, root, _SECOND_SPHERE, mx, my, mz, NO_POLYGON)
-        if poly != NO_POLYGON:
-            x, y, z = _global_normal(wf, s, poly)
-            set_collision_normal(s, x, y, z)
-            return COLLIDED
     return OK
 
 
@@ -126,7 +123,7 @@ def collide_clipped(
 
     retail: FC-15, BSPTREE::collide_with_pt 0x0053A090, CP-1...CP-4
     """
-    _, poly = _strikes(wf, wi, s, root, LOCALSPACE_SPHERE, mx, my, mz, NO_POLYGON)
+    _, poly = _strikes(wf, wi, s, root, 0, mx, my, mz)
     if poly == NO_POLYGON:
         return OK
     if not int(s[OI_STATE]) & PERFECT_CLIP:

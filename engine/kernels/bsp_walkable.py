@@ -150,14 +150,15 @@ def _leaf_hits_walkable(
     if count == 0 or not (free or in_bounds(wf, leaf, x, y, z, r)):
         return False
     allowance = s[WALKABLE_ALLOWANCE]
-    for i in range(first, first + count):
-        p = wi[unsigned(i)]
-        s[POLYGONS_TESTED] += 1
-        if polygon_walkable_hits_sphere(
-            wf, p, x, y, z, r, ux, uy, uz, allowance
-        ) and polygon_check_small_walkable(wf, p, x, y, z, r, ux, uy, uz):
-            return True
-    return False
+    supported = False
+    tested = 0
+    while tested < count and not supported:
+        p = wi[unsigned(first + tested)]
+        tested += 1
+        if polygon_walkable_hits_sphere(wf, p, x, y, z, r, ux, uy, uz, allowance):
+            supported = polygon_check_small_walkable(wf, p, x, y, z, r, ux, uy, uz)
+    s[POLYGONS_TESTED] += tested
+    return supported
 
 
 @entry
@@ -186,15 +187,20 @@ def hits_walkable(
     node = root
     reach = r - EPS
     free = unbounded(wf, s, root, r)
+    nodes = 0
+    supported = False
     while True:
-        s[NODES_VISITED] += 1
+        nodes += 1
         if is_leaf(wi, node):
-            if _leaf_hits_walkable(wf, wi, s, node, x, y, z, r, ux, uy, uz, free):
-                return True
+            supported = _leaf_hits_walkable(wf, wi, s, node, x, y, z, r, ux, uy, uz, free)
+            if supported:
+                break
         elif free or in_bounds(wf, node, x, y, z, r):
             node, top = descend(wf, wi, s, node, x, y, z, reach, top)
             continue
         if top == base:
-            return False
+            break
         top -= 1
         node = int(s[unsigned(top)])
+    s[NODES_VISITED] += nodes
+    return supported
