@@ -30,6 +30,8 @@ from engine.layout import (
     POLYGON_ID,
     RADIUS,
     SHAPE_NODE_INTS,
+    SIDES,
+    SIDES_SIZE,
     VECTOR_SIZE,
 )
 
@@ -182,7 +184,8 @@ def _flatten_polygons(points: Array, polygons: Sequence[Sequence[int]], name: st
 
 def _record_size(num_vertices: int) -> int:
     """Return the length of a polygon's record."""
-    size = POLYGON_CORNERS + (CORNER_SIZE + EDGE_SIZE) * num_vertices
+    blocks = -(-num_vertices // SIDES)
+    size = POLYGON_CORNERS + (CORNER_SIZE + EDGE_SIZE) * num_vertices + SIDES_SIZE * blocks
     return int(size + -size % POLYGON_ALIGNMENT)
 
 

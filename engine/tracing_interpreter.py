@@ -19,7 +19,8 @@ from numba.core.dispatcher import Dispatcher
 from engine.kernels.abreast import flat_planes, lowest, near_planes
 from engine.kernels.ahead import bring_near, bring_nearer
 from engine.kernels.sharing import add_to
-from engine.layout import ABREAST, PLANE_SIZE
+from engine.kernels.sides import sides_outside
+from engine.layout import ABREAST, PLANE_SIZE, SIDES, SIDES_SIZE
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Mapping
@@ -116,6 +117,14 @@ def _flat_planes(wf: Any, at: int, ux: float, uy: float, uz: float, least: float
     return _mask(along > least)
 
 
+def _sides_outside(wf: Any, at: int, x: float, y: float, z: float, far: float) -> int:
+    """Do what `engine.kernels.sides.sides_outside` does."""
+    vx, vy, vz, nx, ny, nz, squared = wf[at : at + SIDES_SIZE].reshape(-1, SIDES)
+    side = ((z - vz) * nz + (y - vy) * ny) + (x - vx) * nx
+    outside = side < 0.0
+    return _mask(outside) | _mask(outside & (side * side > squared * far)) << int(SIDES)
+
+
 def _lowest(mask: int) -> int:
     """Do what `engine.kernels.abreast.lowest` does."""
     return int(mask & -mask).bit_length() - 1
@@ -154,6 +163,7 @@ _MACHINE: Final[dict[Any, Callable[..., Any]]] = {
     bring_near: _ignore,
     bring_nearer: _ignore,
     near_planes: _near_planes,
+    sides_outside: _sides_outside,
     flat_planes: _flat_planes,
     lowest: _lowest,
 }

@@ -75,7 +75,7 @@ def bounding_balls(floats: Array, records: Ints) -> Array:
     for count in np.unique(counts[counts > 2]):
         chosen = np.flatnonzero(counts == count)
         first = records[chosen, None] + at.POLYGON_CORNERS
-        corners = _blocks(floats, first, int(at.CORNER_SIZE), int(count))[..., : at.VECTOR_SIZE]
+        corners = _blocks(floats, first, int(at.CORNER_SIZE), int(count))
         edges = _blocks(floats, first + at.CORNER_SIZE * count, int(at.EDGE_SIZE), int(count))
         middles = corners.mean(axis=1)
         radii = np.linalg.norm(corners - middles[:, None], axis=-1).max(axis=1)

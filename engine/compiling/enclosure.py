@@ -63,15 +63,15 @@ def _off(shape: Shape, counts: Ints, count: int) -> float:
     """
     first = shape.polygon_offsets[counts == count]
     records = shape.polygon_floats
-    corner = _blocks(records, first + at.POLYGON_CORNERS, int(at.CORNER_SIZE), count)
+    points = _blocks(records, first + at.POLYGON_CORNERS, int(at.CORNER_SIZE), count)
     edge = _blocks(records, first + at.POLYGON_CORNERS + at.CORNER_SIZE * count, int(at.EDGE_SIZE), count)
     plane = records[first[:, None] + np.arange(int(at.PLANE_SIZE))]
-    points, normals = corner[..., : at.VECTOR_SIZE], plane[:, None, : at.VECTOR_SIZE]
+    normals = plane[:, None, : at.VECTOR_SIZE]
     ways = _unit(np.roll(points, -1, axis=1) - points)
     turns = _turns(ways, normals)
     around = (turns.sum(axis=1) < _ONCE_AROUND) & (np.minimum(turns, 0.0).sum(axis=1) > -_MOST_DENT)
     across = np.cross(normals, ways)
-    askew = [_length(_unit(m) - across) for m in (corner[..., at.CORNER_NORMAL :], _normals(edge))]
+    askew = [_length(_unit(m) - across) for m in (_side_normals(records, first, count), _normals(edge))]
     sharpest = np.cos(turns / 2.0).min(axis=1)
     diameter = _length(points.max(axis=1) - points.min(axis=1))
     height = np.abs((normals * points).sum(axis=-1) + plane[:, None, at.PLANE_SIZE - 1]).max(axis=1)
@@ -80,6 +80,17 @@ def _off(shape: Shape, counts: Ints, count: int) -> float:
     beside = np.maximum(*askew).max(axis=1) * diameter * (1.0 + 1.0 / sharpest)
     off = np.where(around, height + 2.0 * length * GATE_MOST + rounding + beside, np.inf)
     return float(np.nan_to_num(off, nan=np.inf).max())
+
+
+def _side_normals(records: Array, first: Ints, count: int) -> Array:
+    """Return the in-plane normals of PP-2, of polygons with `count` edges, shape (n, count, 3)."""
+    k = np.arange(count)
+    sides = at.POLYGON_CORNERS + (at.CORNER_SIZE + at.EDGE_SIZE) * count
+    places = sides + at.SIDES_SIZE * (k // at.SIDES) + k % at.SIDES + at.SIDE_NORMAL
+    normals: Array = records[
+        first[:, None, None] + places[:, None] + at.SIDES * np.arange(int(at.VECTOR_SIZE))
+    ]
+    return normals
 
 
 def _turns(ways: Array, normals: Array) -> Array:

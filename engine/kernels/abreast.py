@@ -14,31 +14,18 @@ from numba import types
 from numba.extending import intrinsic
 
 from engine.kernels.compile import inlined, inlined_entry
+from engine.kernels.lanes import bits, loaded, spread
 from engine.layout import ABREAST, PLANE_SIZE
 
 if TYPE_CHECKING:
     from engine.kernels.types import Array
 
 _WIDTH: Final = int(ABREAST)
-_NUMBERS: Final = ir.VectorType(ir.DoubleType(), _WIDTH)
-_ELEMENT_BYTES: Final = 8
 
 
 def _block(context: Any, builder: Any, signature: Any, arguments: Any) -> list[Any]:
     """Generate the loads of a block: x, y, z and d of all planes."""
-    array = context.make_array(signature.args[0])(context, builder, arguments[0])
-    loads = []
-    for k in range(int(PLANE_SIZE)):
-        place = builder.gep(array.data, [builder.add(arguments[1], arguments[1].type(_WIDTH * k))])
-        numbers = builder.bitcast(place, _NUMBERS.as_pointer())
-        loads.append(builder.load(numbers, align=_ELEMENT_BYTES))
-    return loads
-
-
-def _spread(builder: Any, number: Any) -> Any:
-    """Generate a number in each place."""
-    one = builder.insert_element(ir.Constant(_NUMBERS, ir.Undefined), number, ir.IntType(32)(0))
-    return builder.shuffle_vector(one, one, ir.Constant(ir.VectorType(ir.IntType(32), _WIDTH), [0] * _WIDTH))
+    return [loaded(context, builder, signature, arguments, k, _WIDTH) for k in range(int(PLANE_SIZE))]
 
 
 def _dot(builder: Any, planes: list[Any], arguments: Any) -> Any:
@@ -46,14 +33,9 @@ def _dot(builder: Any, planes: list[Any], arguments: Any) -> Any:
 
     retail: 01 1.2
     """
-    x, y, z = (_spread(builder, number) for number in arguments[2:5])
+    x, y, z = (spread(builder, number, _WIDTH) for number in arguments[2:5])
     rest = builder.fadd(builder.fmul(planes[1], y), builder.fmul(planes[2], z))
     return builder.fadd(builder.fmul(planes[0], x), rest)
-
-
-def _bits(builder: Any, flags: Any) -> Any:
-    """Generate an integer whose lowest bits are the flags."""
-    return builder.zext(builder.bitcast(flags, ir.IntType(_WIDTH)), ir.IntType(64))
 
 
 def _reached(_typing: Any, wf: Any, _at: Any, _x: Any, _y: Any, _z: Any, _reach: Any) -> Any:
@@ -62,9 +44,9 @@ def _reached(_typing: Any, wf: Any, _at: Any, _x: Any, _y: Any, _z: Any, _reach:
     def generate(context: Any, builder: Any, signature: Any, arguments: Any) -> Any:
         planes = _block(context, builder, signature, arguments)
         dist, reach = builder.fadd(_dot(builder, planes, arguments), planes[3]), arguments[5]
-        above = builder.fcmp_unordered("<=", dist, _spread(builder, reach))
-        below = builder.fcmp_unordered(">=", dist, _spread(builder, builder.fneg(reach)))
-        return _bits(builder, builder.and_(above, below))
+        above = builder.fcmp_unordered("<=", dist, spread(builder, reach, _WIDTH))
+        below = builder.fcmp_unordered(">=", dist, spread(builder, builder.fneg(reach), _WIDTH))
+        return bits(builder, builder.and_(above, below), _WIDTH)
 
     number = types.float64
     return types.int64(wf, types.int64, number, number, number, number), generate
@@ -76,7 +58,7 @@ def _flat(_typing: Any, wf: Any, _at: Any, _x: Any, _y: Any, _z: Any, _least: An
     def generate(context: Any, builder: Any, signature: Any, arguments: Any) -> Any:
         planes = _block(context, builder, signature, arguments)
         along = _dot(builder, planes, arguments)
-        return _bits(builder, builder.fcmp_ordered(">", along, _spread(builder, arguments[5])))
+        return bits(builder, builder.fcmp_ordered(">", along, spread(builder, arguments[5], _WIDTH)), _WIDTH)
 
     number = types.float64
     return types.int64(wf, types.int64, number, number, number, number), generate

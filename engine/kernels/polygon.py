@@ -13,10 +13,11 @@ from engine.constants import EPS
 from engine.kernels.compile import entry, inlined, inlined_entry
 from engine.kernels.indexing import unsigned
 from engine.kernels.polygon_edges import BEYOND, HIT, MISS, any_edge_near, disc_touches
-from engine.kernels.polygon_record import corner, edge
+from engine.kernels.polygon_record import corner, sides
 from engine.kernels.rounding import f32, slack
+from engine.kernels.sides import sides_outside
 from engine.kernels.vector import dot_x
-from engine.layout import CORNER_NORMAL, EDGE_NORMAL_SQUARED, POLYGON_CONVEX, POLYGON_COUNT
+from engine.layout import POLYGON_CONVEX, POLYGON_COUNT, SIDES, SIDES_SIZE
 
 if TYPE_CHECKING:
     from engine.kernels.types import Array, Vector
@@ -103,48 +104,33 @@ def polygon_point_in_poly2d(wf: Array, p: int, x: float, y: float, side: int) ->
     return True
 
 
-@inlined_entry
+@inlined
+def _outside(wf: Array, p: int, x: float, y: float, z: float, far: float) -> int:
+    """Return the bits of `sides_outside`, of all blocks of a polygon's edges together.
+
+    retail: PP-1...PP-3
+    """
+    n = int(wf[unsigned(p + POLYGON_COUNT)])
+    at = sides(p, n)
+    found = 0
+    for _ in range(0, n, SIDES):
+        found |= sides_outside(wf, at, x, y, z, far)
+        at += SIDES_SIZE
+    return found
+
+
+@entry
 def polygon_point_in_polygon(wf: Array, p: int, x: float, y: float, z: float) -> bool:
     """Say whether a point is inside every edge, whatever its distance from the plane.
 
     retail: CPolygon::point_in_polygon 0x00538D90, PP-1...PP-3
     """
-    n = int(wf[unsigned(p + POLYGON_COUNT)])
-    at = corner(p, n - 1)
-    for k in range(n):
-        normal = at + CORNER_NORMAL
-        sx, sy, sz = x - wf[at], y - wf[at + 1], z - wf[at + 2]
-        if (sz * wf[normal + 2] + sy * wf[normal + 1]) + sx * wf[normal] < 0.0:
-            return False
-        at = corner(p, k)
-    return True
+    return _outside(wf, p, x, y, z, 0.0) == 0
 
 
 @inlined
-def _first_outside(wf: Array, p: int, n: int, x: float, y: float, z: float) -> tuple[int, float]:
-    """Return at which vertex the first edge begins that a point is outside of; n if it is inside all.
-
-    And how far outside, as a negative number, in lengths of the edge's in-plane normal.
-
-    retail: PP-1...PP-3
-    """
-    k = n - 1
-    for following in range(n):
-        at = corner(p, k)
-        normal = at + CORNER_NORMAL
-        sx, sy, sz = x - wf[at], y - wf[at + 1], z - wf[at + 2]
-        side = (sz * wf[normal + 2] + sy * wf[normal + 1]) + sx * wf[normal]
-        if side < 0.0:
-            return k, side
-        k = following
-    return n, 0.0
-
-
-@inlined
-def _clear_of(
-    wf: Array, p: int, n: int, k: int, side: float, x: float, y: float, z: float, r: float, rsq: float
-) -> bool:
-    """Say whether a disc is so far outside of an edge that the walk around the edges is certain to MISS.
+def _far_outside(x: float, y: float, z: float, r: float, rsq: float) -> float:
+    """Return how far, squared, a disc's centre must be outside of an edge to be certain to MISS.
 
     The disc's radius is the root of `rsq`, and at most r. If the polygon is convex, within a millimetre, all
     of it is on the inner side of the edge's line; so where the disc's centre is farther from that line
@@ -154,8 +140,7 @@ def _clear_of(
     derives, is far more than a projected point and an edge's normal are rounded by.
     """
     s = slack(x, y, z)
-    far = wf[edge(p, n, k) + EDGE_NORMAL_SQUARED] * (rsq + s * (r + r + s))
-    return wf[unsigned(p + POLYGON_CONVEX)] != 0.0 and side * side > far
+    return rsq + s * (r + r + s)
 
 
 @entry
@@ -188,12 +173,11 @@ def polygon_hits_sphere_slow_but_sure(
     if rad < abs(dist):
         return BEYOND, 0.0, 0.0, 0.0
     qx, qy, qz = _contact(wf, p, dist, x, y, z)
-    n = int(wf[unsigned(p + POLYGON_COUNT)])
-    k, side = _first_outside(wf, p, n, qx, qy, qz)
-    if k == n:
-        return HIT, qx, qy, qz
     rsq = f32(rad * rad - dist * dist)
-    if _clear_of(wf, p, n, k, side, qx, qy, qz, r, rsq):
+    outside = _outside(wf, p, qx, qy, qz, _far_outside(qx, qy, qz, r, rsq))
+    if outside == 0:
+        return HIT, qx, qy, qz
+    if outside >> SIDES != 0 and wf[unsigned(p + POLYGON_CONVEX)] != 0.0:
         return MISS, qx, qy, qz
     return any_edge_near(wf, p, qx, qy, qz, rsq), qx, qy, qz
 

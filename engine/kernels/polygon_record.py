@@ -13,7 +13,6 @@ from engine.kernels.indexing import unsigned
 from engine.kernels.rounding import f32
 from engine.kernels.vector import store
 from engine.layout import (
-    CORNER_NORMAL,
     CORNER_SIZE,
     EDGE_NORMAL,
     EDGE_NORMAL_SQUARED,
@@ -21,6 +20,11 @@ from engine.layout import (
     EDGE_SQUARED,
     POLYGON_CORNERS,
     POLYGON_COUNT,
+    SIDE_FAR,
+    SIDE_NORMAL,
+    SIDES,
+    SIDES_SIZE,
+    VECTOR_SIZE,
 )
 
 if TYPE_CHECKING:
@@ -39,6 +43,12 @@ def edge(p: int, n: int, k: int) -> int:
     return unsigned(p + POLYGON_CORNERS + CORNER_SIZE * n + EDGE_SIZE * k)
 
 
+@inlined
+def sides(p: int, n: int) -> int:
+    """Return where the blocks of sides begin of the polygon at `p`, which has n vertices."""
+    return p + POLYGON_CORNERS + (CORNER_SIZE + EDGE_SIZE) * n
+
+
 @entry
 def polygon_make_edges(wf: Array, p: int) -> None:
     """Compute and store what the edge tests need, from the vertices and the plane.
@@ -49,19 +59,25 @@ def polygon_make_edges(wf: Array, p: int) -> None:
     for k in range(n):
         at = corner(p, k)
         following = corner(p, (k + 1) % n)
-        _make_corner(wf, p, at, following)
         _make_edge(wf, p, at, following, edge(p, n, k))
+        side = sides(p, n) + SIDES_SIZE * (k // SIDES) + k % SIDES
+        _make_side(wf, p, at, following, side)
+        wf[side + SIDE_FAR] = wf[edge(p, n, k) + EDGE_NORMAL_SQUARED]
 
 
 @inlined
-def _make_corner(wf: Array, p: int, prev: int, cur: int) -> None:
-    """Store the in-plane normal as point_in_polygon rounds it: z stays a register.
+def _make_side(wf: Array, p: int, prev: int, cur: int, at: int) -> None:
+    """Store a vertex, and the in-plane normal as point_in_polygon rounds it: z stays a register.
 
     retail: PP-2
     """
     nx, ny, nz = wf[p], wf[p + 1], wf[p + 2]
     ex, ey, ez = wf[cur] - wf[prev], wf[cur + 1] - wf[prev + 1], wf[cur + 2] - wf[prev + 2]
-    store(wf, prev + CORNER_NORMAL, f32(ez * ny - ey * nz), f32(ex * nz - ez * nx), ey * nx - ex * ny)
+    for j in range(VECTOR_SIZE):
+        wf[at + SIDES * j] = wf[prev + j]
+    wf[at + SIDE_NORMAL] = f32(ez * ny - ey * nz)
+    wf[at + SIDE_NORMAL + SIDES] = f32(ex * nz - ez * nx)
+    wf[at + SIDE_NORMAL + 2 * SIDES] = ey * nx - ex * ny
 
 
 @inlined

@@ -65,18 +65,25 @@ POLYGON_CONVEX: Final = frozen(7)
 """1 if it is convex, and flat and fat as well (`engine.compiling.balls.bounding_balls`), else 0."""
 POLYGON_CORNERS: Final = frozen(8)
 """A polygon record: plane, number of vertices, its id, its shape's index, whether it is convex, corners,
-edges; padded to `POLYGON_ALIGNMENT`."""
+edges, sides; padded to `POLYGON_ALIGNMENT`."""
 POLYGON_ALIGNMENT: Final = frozen(8)
 """Numbers in a cache line: the plane, by which most polygons are ruled out, is in one."""
-CORNER_SIZE: Final = frozen(6)
-"""A vertex x y z, and the in-plane normal of the edge from it to the next one, as PP-2 rounds it."""
-CORNER_NORMAL: Final = frozen(3)
+CORNER_SIZE: Final = frozen(3)
+"""A vertex x y z."""
 EDGE_SIZE: Final = frozen(8)
 """Behind the corners, of the edge from each vertex to the next, what PH-4 computes without the sphere:
 the edge x y z, its in-plane normal x y z, and the squared lengths of the normal and of the edge."""
 EDGE_NORMAL: Final = frozen(3)
 EDGE_NORMAL_SQUARED: Final = frozen(6)
 EDGE_SQUARED: Final = frozen(7)
+SIDES: Final = frozen(4)
+"""Edges in a block of sides."""
+SIDE_NORMAL: Final = frozen(3 * SIDES)
+SIDE_FAR: Final = frozen(6 * SIDES)
+SIDES_SIZE: Final = frozen(7 * SIDES)
+"""Behind the edges, in blocks of `SIDES` of them, what PP-2 computes without the point: the x of the vertices
+that they begin at, then y and z, the same of their in-plane normals as PP-2 rounds them, and the squared
+lengths of `EDGE_NORMAL_SQUARED`. What is left of the last block is zeros, which no point is outside of."""
 
 _header = Row()
 
@@ -154,7 +161,7 @@ NO_PORTALS: Final = frozen(-1)
 """Portal count of a cell without a portal array, which contains no point (09, 4.1)."""
 NO_BUILDING: Final = frozen(-1)
 
-TERRAIN_POLYGON: Final = POLYGON_CORNERS + 3 * (CORNER_SIZE + EDGE_SIZE)
+TERRAIN_POLYGON: Final = POLYGON_CORNERS + 3 * (CORNER_SIZE + EDGE_SIZE) + SIDES_SIZE
 """Size of a triangle's record."""
 LAND_CELLS: Final = frozen(64)
 """Land cells of a block; cell 8 * i + j lies in column i from the west, row j from the south."""

@@ -13,7 +13,7 @@ from engine import Leaf, Shape
 from engine.kernels.polygon import polygon_hits_sphere, polygon_point_in_polygon
 from engine.kernels.polygon_edges import BEYOND, HIT, MISS
 from engine.kernels.polygon_support import polygon_find_crossed_edge
-from engine.layout import CORNER_SIZE, POLYGON_CORNERS
+from engine.layout import CORNER_SIZE, EDGE_SIZE, POLYGON_CORNERS, SIDES, SIDES_SIZE
 
 if TYPE_CHECKING:
     from engine.kernels.types import Array
@@ -126,8 +126,23 @@ def test_the_crossed_edge_is_the_same_as_if_nothing_were_precomputed(flat: list[
 
 
 def test_corners_are_the_vertices_in_order() -> None:
-    """Each followed by the normal of the edge that begins there."""
+    """Behind the numbers that every record begins with."""
     wf = record([(0, 0, 0), (2, 0, 0), (0, 3, 0)])
     places = wf[POLYGON_CORNERS:][: 3 * CORNER_SIZE].reshape(3, CORNER_SIZE)
-    assert places[:, :3].tolist() == [[0, 0, 0], [2, 0, 0], [0, 3, 0]]
-    assert places[:, 3:].tolist() == [[0, 2, 0], [-3, -2, 0], [3, 0, 0]]
+    assert places.tolist() == [[0, 0, 0], [2, 0, 0], [0, 3, 0]]
+
+
+def test_sides_are_the_vertices_and_normals_of_the_edges_side_by_side() -> None:
+    """With the normals' squared lengths; the last block of a triangle ends with an edge that is nowhere."""
+    wf = record([(0, 0, 0), (2, 0, 0), (0, 3, 0)])
+    block = wf[POLYGON_CORNERS + 3 * (CORNER_SIZE + EDGE_SIZE) :][:SIDES_SIZE].reshape(-1, SIDES)
+    assert block[:3].T.tolist() == [[0, 0, 0], [2, 0, 0], [0, 3, 0], [0, 0, 0]]
+    assert block[3:6].T.tolist() == [[0, 2, 0], [-3, -2, 0], [3, 0, 0], [0, 0, 0]]
+    assert block[6].tolist() == [4, 13, 9, 0]
+
+
+def test_a_polygon_of_five_has_two_blocks_of_sides() -> None:
+    """A point outside of its last edge only is outside."""
+    wf = record([(0, 0, 0), (2, 0, 0), (3, 1, 0), (2, 2, 0), (0, 2, 0)])
+    assert polygon_point_in_polygon(wf, 0, 0.25, 1.0, 0.0)
+    assert not polygon_point_in_polygon(wf, 0, -0.25, 1.0, 0.0)

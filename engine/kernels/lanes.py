@@ -1,0 +1,36 @@
+"""What kernels that compute several numbers side by side are generated of."""
+
+from __future__ import annotations
+
+from typing import Any, Final
+
+from llvmlite import ir
+
+_ELEMENT_BYTES: Final = 8
+_INDEX: Final = ir.IntType(32)
+
+
+def _numbers(width: int) -> Any:
+    return ir.VectorType(ir.DoubleType(), width)
+
+
+def loaded(context: Any, builder: Any, signature: Any, arguments: Any, k: int, width: int) -> Any:
+    """Generate the load of the k-th `width` numbers of a block.
+
+    The first two arguments are the array, and where in it the block begins.
+    """
+    array = context.make_array(signature.args[0])(context, builder, arguments[0])
+    place = builder.gep(array.data, [builder.add(arguments[1], arguments[1].type(width * k))])
+    return builder.load(builder.bitcast(place, _numbers(width).as_pointer()), align=_ELEMENT_BYTES)
+
+
+def spread(builder: Any, number: Any, width: int) -> Any:
+    """Generate a number in each place."""
+    nothing = ir.Constant(_numbers(width), ir.Undefined)
+    one = builder.insert_element(nothing, number, _INDEX(0))
+    return builder.shuffle_vector(one, one, ir.Constant(ir.VectorType(_INDEX, width), [0] * width))
+
+
+def bits(builder: Any, flags: Any, width: int) -> Any:
+    """Generate an integer whose lowest bits are the flags."""
+    return builder.zext(builder.bitcast(flags, ir.IntType(width)), ir.IntType(64))
