@@ -281,4 +281,4 @@ def test_bodies_are_rows() -> None:
     """What ticks together is an array, and a list of bodies is told so."""
     world = World([Cell(CELL, Pose(CELL, (0.0, 0.0, 0.0)), FLOOR)])
     with pytest.raises(QueryError, match=r"^rows: list where an array of BODY_DTYPE is needed$"):
-        step_many(world, [Body(HERE)], 0.1, 1)  # type: ignore[arg-type]
+        step_many(world, [Body(HERE, [(0.0, 0.0, 0.5, 0.5)])], 0.1, 1)  # type: ignore[arg-type]
