@@ -13,7 +13,7 @@ from engine.errors import CrowdedError, QueryError, RecursionBoundError, Undeter
 from engine.given import room
 from engine.kernels import program
 from engine.object_call import ObjectCall, object_rows
-from engine.plan import CALL_PLAN, FULL_PLAN, Plan
+from engine.plan import CALL_PLAN, FULL_PLAN, Plan, of_calls
 from engine.query import CollisionCall, Move, collision_rows, move_rows
 
 if TYPE_CHECKING:
@@ -137,7 +137,7 @@ def find_collisions_many(
     concerns single calls. See `find_collisions`.
     """
     rows = calls if isinstance(calls, np.ndarray) else collision_rows(world, calls)
-    return _run(program.COLLIDE, world, rows, threads, _of_calls(plan), coherent=coherent, out=out)
+    return _run(program.COLLIDE, world, rows, threads, of_calls(plan), coherent=coherent, out=out)
 
 
 def find_object_collisions(world: World, call: ObjectCall) -> Any:
@@ -178,12 +178,7 @@ def find_object_collisions_many(
     concerns single calls. See `find_object_collisions`.
     """
     rows = calls if isinstance(calls, np.ndarray) else object_rows(world, calls)
-    return _run(program.MEET, world, rows, threads, _of_calls(plan), coherent=coherent, out=out)
-
-
-def _of_calls(plan: Plan) -> Plan:
-    """Return what of a plan single calls take: the other shortcuts are proven of whole transitions."""
-    return Plan(plan.skip & CALL_PLAN.skip)
+    return _run(program.MEET, world, rows, threads, of_calls(plan), coherent=coherent, out=out)
 
 
 def _run(

@@ -71,3 +71,8 @@ FULL_PLAN: Final = Plan()
 CALL_PLAN: Final = Plan(Stage.BOUNDS)
 """What is used of single calls of trees and objects: the other shortcuts are those of whole transitions."""
 NO_PLAN: Final = Plan.none()
+
+
+def of_calls(plan: Plan) -> Plan:
+    """Return what of a plan single calls take: the other shortcuts are proven of whole transitions."""
+    return Plan(plan.skip & CALL_PLAN.skip)

@@ -11,7 +11,7 @@ from engine.batch import check_status
 from engine.coherence import AS_ASKED
 from engine.kernels import program
 from engine.kernels.sharing import LANE_INTS, LANE_NEXT
-from engine.plan import FULL_PLAN, NO_PLAN, Plan
+from engine.plan import FULL_PLAN, Plan, of_calls
 from engine.query import CollisionCall, Move, collision_rows, move_rows
 from engine.threads import new_share
 from engine.tracing import runnable
@@ -30,7 +30,7 @@ class Prepared:
     world : World
     query : Move or CollisionCall
     plan : Plan
-        Which work of a move may be left out; it changes no result.
+        Which work may be left out; it changes no result. Of a call, that of `CALL_PLAN` at most.
 
     Attributes
     ----------
@@ -64,7 +64,7 @@ class Prepared:
         if isinstance(query, Move):
             rows, job = move_rows(world, [query]), program.RESOLVE
         else:
-            rows, job, plan = collision_rows(world, [query]), program.COLLIDE, NO_PLAN
+            rows, job, plan = collision_rows(world, [query]), program.COLLIDE, of_calls(plan)
         results = np.zeros(1, dtype=at.RESULT_DTYPE)
         self.query: Final[Any] = rows[0]
         self.result: Final[Any] = results[0]

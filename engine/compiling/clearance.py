@@ -22,7 +22,7 @@ _LEAST_EDGE: Final = 0.5
 """Edge of a cube, metres, where there are cubes enough: finer ones say little more of a human's reach."""
 _CUBES_PER_POLYGON: Final = 128
 """A grid's size, and the time that it takes to make, are bounded by those of its geometry,"""
-_MOST_CUBES: Final = 2**19
+_MOST_CUBES: Final = 2**20
 """and by this: a byte each."""
 _COARSER: Final = 1.1
 """How much longer edges are made until there are few enough cubes."""
