@@ -75,8 +75,8 @@ def bounding_balls(floats: Array, records: Ints) -> Array:
     for count in np.unique(counts[counts > 2]):
         chosen = np.flatnonzero(counts == count)
         first = records[chosen, None] + at.POLYGON_CORNERS
-        corners = _blocks(floats, first, int(at.CORNER_SIZE), int(count))
-        edges = _blocks(floats, first + at.CORNER_SIZE * count, int(at.EDGE_SIZE), int(count))
+        corners = blocks(floats, first, int(at.CORNER_SIZE), int(count))
+        edges = blocks(floats, first + at.CORNER_SIZE * count, int(at.EDGE_SIZE), int(count))
         middles = corners.mean(axis=1)
         radii = np.linalg.norm(corners - middles[:, None], axis=-1).max(axis=1)
         balls[chosen, : at.VECTOR_SIZE] = middles
@@ -102,10 +102,10 @@ def planes_of(floats: Array, records: Ints) -> Array:
     return planes
 
 
-def _blocks(floats: Array, first: Ints, size: int, count: int) -> Array:
+def blocks(floats: Array, first: Ints, size: int, count: int) -> Array:
     """Return `count` consecutive blocks of numbers of each polygon: shape (n, count, size)."""
-    blocks: Array = floats[first + np.arange(size * count)].reshape(len(first), count, size)
-    return blocks
+    found: Array = floats[first + np.arange(size * count)].reshape(len(first), count, size)
+    return found
 
 
 def _are_convex(corners: Array, edges: Array) -> Flags:

@@ -7,6 +7,8 @@ from typing import TYPE_CHECKING, Final
 import numpy as np
 
 from engine import layout as at
+from engine.compiling.balls import blocks, planes_of
+from engine.compiling.leaf_planes import listed_polygons
 from engine.constants import EPS, GATE_MOST
 
 if TYPE_CHECKING:
@@ -63,9 +65,10 @@ def _off(shape: Shape, counts: Ints, count: int) -> float:
     """
     first = shape.polygon_offsets[counts == count]
     records = shape.polygon_floats
-    points = _blocks(records, first + at.POLYGON_CORNERS, int(at.CORNER_SIZE), count)
-    edge = _blocks(records, first + at.POLYGON_CORNERS + at.CORNER_SIZE * count, int(at.EDGE_SIZE), count)
-    plane = records[first[:, None] + np.arange(int(at.PLANE_SIZE))]
+    corners = first[:, None] + at.POLYGON_CORNERS
+    points = blocks(records, corners, int(at.CORNER_SIZE), count)
+    edge = blocks(records, corners + at.CORNER_SIZE * count, int(at.EDGE_SIZE), count)
+    plane = planes_of(records, first)
     normals = plane[:, None, : at.VECTOR_SIZE]
     ways = _unit(np.roll(points, -1, axis=1) - points)
     turns = _turns(ways, normals)
@@ -118,21 +121,15 @@ def _outside(shape: Shape, counts: Ints) -> float:
 
 def _listed(shape: Shape, counts: Ints) -> tuple[Ints, Array]:
     """Return in which leaf each corner is of what leaves list, and the corners' x, y and z."""
-    kinds = shape.node_ints[:, at.NODE_KIND]
-    leaves = np.flatnonzero(kinds != at.KIND_NODE)
-    sizes = shape.node_ints[leaves, at.LEAF_COUNT]
-    lists = _ranges(shape.node_ints[leaves, at.LEAF_FIRST], sizes)
-    polygons = shape.leaf_polygons[lists]
+    leaves = np.flatnonzero(shape.node_ints[:, at.NODE_KIND] != at.KIND_NODE)
+    owners, _, polygons = listed_polygons(shape, leaves)
     sides = counts[polygons]
     begins = shape.polygon_offsets[polygons] + at.POLYGON_CORNERS
-    at_corner = np.repeat(begins, sides) + at.CORNER_SIZE * _ranges(np.zeros_like(sides), sides)
+    before = np.cumsum(sides) - sides
+    number = np.arange(sides.sum()) - np.repeat(before, sides)
+    at_corner = np.repeat(begins, sides) + at.CORNER_SIZE * number
     corners: Array = shape.polygon_floats[at_corner + np.arange(int(at.VECTOR_SIZE))[:, None]]
-    return np.repeat(np.repeat(leaves, sizes), sides), corners
-
-
-def _ranges(firsts: Ints, sizes: Ints) -> Ints:
-    """Return consecutive numbers, as many as each size says, from each first one on."""
-    return np.arange(sizes.sum()) - np.repeat(np.cumsum(sizes) - sizes - firsts, sizes)
+    return np.repeat(leaves[owners], sides), corners
 
 
 def _parents(nodes: Ints) -> Ints:
@@ -142,12 +139,6 @@ def _parents(nodes: Ints) -> Ints:
     for child in (at.NODE_POSITIVE, at.NODE_NEGATIVE):
         parents[nodes[inner, child]] = inner
     return parents
-
-
-def _blocks(floats: Array, first: Ints, size: int, count: int) -> Array:
-    """Return `count` consecutive blocks of numbers of each polygon: shape (n, count, size)."""
-    blocks: Array = floats[first[:, None] + np.arange(size * count)].reshape(len(first), count, size)
-    return blocks
 
 
 def _normals(edges: Array) -> Array:

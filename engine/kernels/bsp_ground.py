@@ -14,7 +14,7 @@ from engine.kernels.bsp_walkable import find_walkable, hits_walkable
 from engine.kernels.collision_info import set_contact_plane
 from engine.kernels.compile import inlined, kernel
 from engine.kernels.frame import rotate_x_last
-from engine.kernels.path import add_offset_to_check_pos, enter_second_sphere, set_walkable
+from engine.kernels.path import add_offset_to_check_pos, entered_sphere, set_walkable
 from engine.kernels.plane import plane_localtoglobal
 from engine.kernels.position import position_localtoglobalvec
 from engine.kernels.rounding import f32
@@ -29,7 +29,6 @@ from engine.layout import (
     NO_POLYGON,
     NUM_SPHERE,
     RADIUS,
-    SPHERE_SIZE,
     STEP_DOWN_AMT,
     WALK_INTERP,
 )
@@ -55,11 +54,8 @@ def find_room(wf: Array, wi: Ints, s: Array, root: int) -> int:
     """
     flag = center_check_flag(s)
     for i in range(max(int(s[NUM_SPHERE]), 1)):
-        if i != 0:
-            enter_second_sphere(s)
-        at = LOCALSPACE_SPHERE + SPHERE_SIZE * i
-        x, y, z = load(s, at)
-        if sphere_intersects_solid(wf, wi, s, root, x, y, z, s[at + RADIUS], flag):
+        x, y, z, r = entered_sphere(s, i)
+        if sphere_intersects_solid(wf, wi, s, root, x, y, z, r, flag):
             return COLLIDED
     return OK
 

@@ -94,16 +94,13 @@ def sphere_intersects_poly(
 
     retail: BSPNODE::sphere_intersects_poly 0x0053CA30, SP-1...SP-6
     """
-    if not in_bounds(wf, root, x, y, z, r):
-        s[NODES_VISITED] += 1
-        return False, poly
     base = wi[WORLD_STACK]
     top = base
     node = root
     reach = r - EPS
     nodes = 0
     struck = False
-    free = unbounded(wf, s, root, r)
+    free = unbounded(wf, s, root, x, y, z, r)
     while True:
         nodes += 1
         if is_leaf(wi, node):
@@ -170,22 +167,23 @@ def sphere_intersects_solid(
         if is_leaf(wi, node):
             _, count = leaf_polygons(wi, node)
             if count != 0:
-                solid = check != 0 and is_solid(wi, node)
-                if solid or _leaf_overlap(wf, wi, s, node, x, y, z, r) != NO_POLYGON:
-                    solid = True
+                filled = check != 0 and is_solid(wi, node)
+                solid = filled or _leaf_overlap(wf, wi, s, node, x, y, z, r) != NO_POLYGON
+                if solid:
                     break
         elif in_bounds(wf, node, x, y, z, r):
             dist = splitting_distance(wf, node, x, y, z)
-            if dist >= reach:
+            side = side_of(dist, reach)
+            if side == POSITIVE_SIDE:
                 node = positive(node)
-            elif dist <= -reach:
-                node = negative(wi, node)
-            else:
+            elif side == BOTH_SIDES:
                 in_front = not dist < 0.0
                 s[unsigned(top)] = 2 * negative(wi, node) + (0 if in_front else check)
                 top += 1
                 node = positive(node)
                 check = check if in_front else 0
+            else:
+                node = negative(wi, node)
             continue
         if top == base:
             break

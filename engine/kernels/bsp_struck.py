@@ -18,7 +18,7 @@ from engine.kernels.bsp_search import adjust_to_plane
 from engine.kernels.collision_info import set_collision_normal
 from engine.kernels.compile import inlined, kernel
 from engine.kernels.frame import frame_localtoglobalvec
-from engine.kernels.path import enter_second_sphere, set_collide, set_neg_poly_hit
+from engine.kernels.path import entered_sphere, set_collide, set_neg_poly_hit
 from engine.kernels.position import position_localtoglobalvec
 from engine.kernels.sphere import slide_sphere
 from engine.kernels.vector import load, store
@@ -31,7 +31,6 @@ from engine.layout import (
     OI_STATE,
     RADIUS,
     REQUESTED_NORMAL,
-    SPHERE_SIZE,
     WALKABLE_ALLOWANCE,
 )
 
@@ -44,11 +43,8 @@ def _strikes(
     wf: Array, wi: Ints, s: Array, root: int, sphere: int, mx: float, my: float, mz: float
 ) -> tuple[bool, int]:
     """Search for the polygon that one of the row's spheres strikes."""
-    if sphere != 0:
-        enter_second_sphere(s)
-    at = LOCALSPACE_SPHERE + SPHERE_SIZE * sphere
-    x, y, z = load(s, at)
-    return sphere_intersects_poly(wf, wi, s, root, x, y, z, s[at + RADIUS], mx, my, mz, NO_POLYGON)
+    x, y, z, r = entered_sphere(s, sphere)
+    return sphere_intersects_poly(wf, wi, s, root, x, y, z, r, mx, my, mz, NO_POLYGON)
 
 
 @inlined

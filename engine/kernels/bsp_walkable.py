@@ -95,16 +95,13 @@ def find_walkable(
 
     retail: BSPNODE::find_walkable 0x0053CC80, FW-1...FW-5
     """
-    if not in_bounds(wf, root, x, y, z, r):
-        s[NODES_VISITED] += 1
-        return NO_POLYGON, x, y, z
     base = wi[WORLD_STACK]
     top = base
     node = root
     reach = r - EPS
     poly = NO_POLYGON
     nodes = 0
-    free = abs(mx) + abs(my) + abs(mz) < GATE_WAY and unbounded(wf, s, root, r)
+    free = abs(mx) + abs(my) + abs(mz) < GATE_WAY and unbounded(wf, s, root, x, y, z, r)
     while True:
         nodes += 1
         if is_leaf(wi, node):
@@ -179,14 +176,11 @@ def hits_walkable(
 
     retail: BSPNODE::hits_walkable 0x0053CBD0, 03 6
     """
-    if not in_bounds(wf, root, x, y, z, r):
-        s[NODES_VISITED] += 1
-        return False
     base = wi[WORLD_STACK]
     top = base
     node = root
     reach = r - EPS
-    free = unbounded(wf, s, root, r)
+    free = unbounded(wf, s, root, x, y, z, r)
     nodes = 0
     supported = False
     while True:

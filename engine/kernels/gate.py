@@ -9,6 +9,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from engine.constants import GATE_LEAST
+from engine.kernels.bsp_node import in_bounds
 from engine.kernels.compile import inlined
 from engine.kernels.indexing import unsigned
 from engine.kernels.plan import allows
@@ -19,8 +20,8 @@ if TYPE_CHECKING:
 
 
 @inlined
-def unbounded(wf: Array, s: Array, root: int, r: float) -> bool:
-    """Say whether a walk that has passed the root's bounding sphere finds the same without all others.
+def unbounded(wf: Array, s: Array, root: int, x: float, y: float, z: float, r: float) -> bool:
+    """Say whether a walk passes the root's bounding sphere, and finds the same without all others.
 
     It does if no polygon is HIT that the bounding sphere of a node above it would have kept from being
     looked at. That is so in a tree of which `engine.compiling.enclosure` has found that
@@ -43,7 +44,7 @@ def unbounded(wf: Array, s: Array, root: int, r: float) -> bool:
     retail: BN-1, SP-1, SP-4, FW-1, FW-4
     """
     most = wf[unsigned(NODE_FLOATS * (root + GATE) + GATE_RADIUS)]
-    if not GATE_LEAST <= r <= most or not allows(s, PLAN_BOUNDS):
+    if not GATE_LEAST <= r <= most or not allows(s, PLAN_BOUNDS) or not in_bounds(wf, root, x, y, z, r):
         return False
     s[SKIPPED_BOUNDS] += 1.0
     return True

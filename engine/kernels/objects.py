@@ -37,9 +37,8 @@ from engine.kernels.bsp_tree import find_collisions
 from engine.kernels.collision_info import add_object
 from engine.kernels.compile import inlined, kernel
 from engine.kernels.cylsphere import test_cylsphere
-from engine.kernels.path import enter_localspace, enter_second_sphere
+from engine.kernels.path import enter_localspace, entered_sphere
 from engine.kernels.sphere_obstacle import test_sphere
-from engine.kernels.vector import load
 from engine.layout import (
     COLLIDED_WITH_ENVIRONMENT,
     COLLISION_NORMAL_VALID,
@@ -47,7 +46,6 @@ from engine.layout import (
     FAMILY_CYLSPHERES,
     FAMILY_PARTS,
     INSERT_TYPE,
-    LOCALSPACE_SPHERE,
     MOVER_MISSILE,
     NUM_SPHERE,
     OBJECT_COUNT,
@@ -67,7 +65,6 @@ from engine.layout import (
     PART_INTS,
     PART_SCALE,
     PART_TREE,
-    RADIUS,
     SPHERE_SIZE,
     STEP_DOWN,
     TARGET_ID,
@@ -206,11 +203,8 @@ def _any_sphere_near(wf: Array, s: Array, root: int) -> bool:
     retail: 08 7.2
     """
     for i in range(int(s[NUM_SPHERE])):
-        if i > 0:
-            enter_second_sphere(s)
-        at = LOCALSPACE_SPHERE + SPHERE_SIZE * i
-        x, y, z = load(s, at)
-        if in_bounds(wf, root, x, y, z, s[at + RADIUS]):
+        x, y, z, r = entered_sphere(s, i)
+        if in_bounds(wf, root, x, y, z, r):
             return True
     return False
 

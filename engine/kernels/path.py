@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING
 
 from engine.constants import FIRST_INDOOR, PLACEMENT_INSERT, TRANSITION_INSERT
 from engine.kernels.compile import entry, inlined, kernel
-from engine.kernels.position import block_offset, localtolocal_across
+from engine.kernels.position import block_offset, position_localtolocal
 from engine.kernels.rounding import f32
 from engine.kernels.vector import copy_position, copy_vector, load, store
 from engine.layout import (
@@ -175,28 +175,25 @@ def add_offset_to_check_pos(s: Array, x: float, y: float, z: float) -> None:
 
 
 @inlined
-def _to_localspace(
-    a: Array, p: int, bx: float, by: float, inv: float, s: Array, pos: int, sphere: int
-) -> Vector:
-    """Take a sphere's centre at a position into the space of p, divided by its scale.
-
-    bx, by: how far apart the blocks of both positions are.
+def _to_localspace(s: Array, a: Array, p: int, pos: int, i: int) -> Vector:
+    """Take the i-th sphere's centre at a position of the row into the space at p, which was entered.
 
     retail: LS-2
     """
-    x, y, z = load(s, sphere)
-    vx, vy, vz = localtolocal_across(a, p, bx, by, s, pos, x, y, z)
+    x, y, z = load(s, LOCAL_SPHERE + SPHERE_SIZE * i)
+    vx, vy, vz = position_localtolocal(a, p, s, pos, x, y, z)
+    inv = s[LOCALSPACE_INVERSE]
     return f32(inv * vx), f32(inv * vy), f32(inv * vz)
 
 
 @inlined
-def _begin_localspace(s: Array, a: Array, p: int, inv: float) -> None:
+def _begin_localspace(s: Array, a: Array, p: int, scale: float) -> None:
     """Note what the space at p is, and where up is in it.
 
     retail: LS-1, LS-3, LS-4
     """
     copy_position(s, LOCALSPACE_POS, a, p)
-    s[LOCALSPACE_INVERSE] = inv
+    s[LOCALSPACE_INVERSE] = f32(1.0 / scale)
     m = LOCALSPACE_POS + MATRIX
     ux = f32((s[m + 1] + s[m]) * 0.0 + s[m + 2])
     uy = f32((s[m + 4] + s[m + 3]) * 0.0 + s[m + 5])
@@ -205,26 +202,24 @@ def _begin_localspace(s: Array, a: Array, p: int, inv: float) -> None:
 
 
 @inlined
-def _local_sphere(s: Array, a: Array, p: int, inv: float, i: int) -> None:
-    """Put the i-th sphere, at the check position, into the space at p.
+def _enter_sphere(s: Array, a: Array, p: int, i: int) -> None:
+    """Put the i-th sphere, at the check position, into the space at p, which was entered.
 
     retail: LS-2
     """
-    local, at = LOCAL_SPHERE + SPHERE_SIZE * i, LOCALSPACE_SPHERE + SPHERE_SIZE * i
-    bx, by = block_offset(a[p], s[CHECK_POS])
-    x, y, z = _to_localspace(a, p, bx, by, inv, s, CHECK_POS, local)
+    at = LOCALSPACE_SPHERE + SPHERE_SIZE * i
+    x, y, z = _to_localspace(s, a, p, CHECK_POS, i)
     store(s, at, x, y, z)
-    s[at + RADIUS] = f32(inv * s[local + RADIUS])
+    s[at + RADIUS] = f32(s[LOCALSPACE_INVERSE] * s[LOCAL_SPHERE + SPHERE_SIZE * i + RADIUS])
 
 
 @inlined
-def _local_current(s: Array, a: Array, p: int, inv: float, i: int) -> None:
-    """Put the centre of the i-th sphere, at the current position, into the space at p.
+def _enter_center(s: Array, i: int) -> None:
+    """Put the centre of the i-th sphere, at the current position, into the space that was entered.
 
     retail: LS-2
     """
-    bx, by = block_offset(a[p], s[CURR_POS])
-    x, y, z = _to_localspace(a, p, bx, by, inv, s, CURR_POS, LOCAL_SPHERE + SPHERE_SIZE * i)
+    x, y, z = _to_localspace(s, s, LOCALSPACE_POS, CURR_POS, i)
     store(s, LOCALSPACE_CURR_CENTER + 3 * i, x, y, z)
 
 
@@ -237,11 +232,10 @@ def cache_localspace_sphere(s: Array, a: Array, p: int, scale: float) -> None:
 
     retail: SPHEREPATH::cache_localspace_sphere 0x0050C9D0, LS-1...LS-5
     """
-    inv = f32(1.0 / scale)
-    _begin_localspace(s, a, p, inv)
+    _begin_localspace(s, a, p, scale)
     for i in range(int(s[NUM_SPHERE])):
-        _local_sphere(s, a, p, inv, i)
-        _local_current(s, a, p, inv, i)
+        _enter_sphere(s, a, p, i)
+        _enter_center(s, i)
     ux, uy, uz = load(s, LOCALSPACE_Z)
     r = s[LOCALSPACE_SPHERE + RADIUS]
     by, bz = f32(r * uy), f32(r * uz)
@@ -263,13 +257,12 @@ def enter_localspace(s: Array, wf: Array, p: int, scale: float) -> None:
 
     retail: SPHEREPATH::cache_localspace_sphere 0x0050C9D0, LS-1...LS-4
     """
-    inv = f32(1.0 / scale)
     if s[LOCALSPACE_OF] != p:
-        _begin_localspace(s, wf, p, inv)
+        _begin_localspace(s, wf, p, scale)
         s[LOCALSPACE_OF] = p
         s[LOCALSPACE_HAS_CURRENT] = 0.0
     if s[NUM_SPHERE] > 0.0:
-        _local_sphere(s, wf, p, inv, 0)
+        _enter_sphere(s, wf, p, 0)
 
 
 @kernel
@@ -278,7 +271,17 @@ def enter_second_sphere(s: Array) -> None:
 
     retail: SPHEREPATH::cache_localspace_sphere 0x0050C9D0, LS-2
     """
-    _local_sphere(s, s, LOCALSPACE_POS, s[LOCALSPACE_INVERSE], 1)
+    _enter_sphere(s, s, LOCALSPACE_POS, 1)
+
+
+@inlined
+def entered_sphere(s: Array, i: int) -> tuple[float, float, float, float]:
+    """Return the i-th sphere, centre and radius, in the space that was entered last; put the second there."""
+    if i > 0:
+        enter_second_sphere(s)
+    at = LOCALSPACE_SPHERE + SPHERE_SIZE * i
+    x, y, z = load(s, at)
+    return x, y, z, s[at + RADIUS]
 
 
 @kernel
@@ -288,7 +291,7 @@ def enter_current_center(s: Array) -> None:
     retail: SPHEREPATH::cache_localspace_sphere 0x0050C9D0, LS-2
     """
     if s[LOCALSPACE_HAS_CURRENT] == 0.0 and s[NUM_SPHERE] > 0.0:
-        _local_current(s, s, LOCALSPACE_POS, s[LOCALSPACE_INVERSE], 0)
+        _enter_center(s, 0)
         s[LOCALSPACE_HAS_CURRENT] = 1.0
 
 

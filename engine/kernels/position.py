@@ -93,26 +93,15 @@ def position_globaltolocalvec(a: Array, p: int, x: float, y: float, z: float) ->
     )
 
 
-@inlined
-def localtolocal_across(
-    b: Array, to: int, bx: float, by: float, a: Array, p: int, x: float, y: float, z: float
-) -> Vector:
-    """Take a point from one position's space to another's, whose blocks are bx, by apart.
-
-    retail: Position::localtolocal 0x004527F0, 01 5.6
-    """
-    gx, gy, gz = _out_of_frame(a, p, x, y, z)
-    return frame_globaltolocal(b, to, f32(bx + gx), f32(by + gy), f32(0.0 + gz))
-
-
-@entry
+@inlined_entry
 def position_localtolocal(b: Array, to: int, a: Array, p: int, x: float, y: float, z: float) -> Vector:
     """Take a point from one position's space to another's.
 
     retail: Position::localtolocal 0x004527F0, 01 5.6
     """
     bx, by = block_offset(b[to], a[p])
-    return localtolocal_across(b, to, bx, by, a, p, x, y, z)
+    gx, gy, gz = _out_of_frame(a, p, x, y, z)
+    return frame_globaltolocal(b, to, f32(bx + gx), f32(by + gy), f32(0.0 + gz))
 
 
 @inlined_entry

@@ -150,8 +150,7 @@ def report(wf: Array, s: Array, out: Array, result: int) -> None:
     out[at.R_POLYGONS_TESTED] = s[at.POLYGONS_TESTED]
     out[at.R_CELLS_LISTED] = s[at.CELLS_LISTED]
     out[at.R_OBJECTS_TESTED] = s[at.OBJECTS_TESTED]
-    copy_four(out, at.R_SKIPPED, s, at.SKIPPED)
-    out[at.R_SKIPPED + at.SKIPPED_BOUNDS - at.SKIPPED] = s[at.SKIPPED_BOUNDS]
+    copy(out, at.R_SKIPPED, s, at.SKIPPED, at.SKIPPED_SIZE)
     out[at.R_STATUS] = s[at.STATUS]
 
 

@@ -56,7 +56,7 @@ from engine.kernels.tick_position import set_position_internal
 from engine.kernels.tick_seed import seed_transition
 from engine.kernels.tick_velocity import has_bit, set_bit, set_velocity, update_physics_internal
 from engine.kernels.transition import find_valid_position
-from engine.kernels.vector import copy_four, copy_vector, load, store
+from engine.kernels.vector import copy, copy_vector, load, store
 from engine.layout import (
     COLLIDED_WITH_ENVIRONMENT,
     COLLISION_NORMAL,
@@ -72,7 +72,7 @@ from engine.layout import (
     POSITION_SIZE,
     QUATERNION,
     SKIPPED,
-    SKIPPED_BOUNDS,
+    SKIPPED_SIZE,
     STATUS,
     STATUS_OK,
     TRACE_LENGTH,
@@ -242,5 +242,4 @@ def _report(s: Array, b: Array) -> None:
     b[B_COLLIDED_WITH_ENVIRONMENT] = s[COLLIDED_WITH_ENVIRONMENT]
     b[B_NODES_VISITED] = s[NODES_VISITED]
     b[B_POLYGONS_TESTED] = s[POLYGONS_TESTED]
-    copy_four(b, B_SKIPPED, s, SKIPPED)
-    b[B_SKIPPED + SKIPPED_BOUNDS - SKIPPED] = s[SKIPPED_BOUNDS]
+    copy(b, B_SKIPPED, s, SKIPPED, SKIPPED_SIZE)

@@ -45,6 +45,14 @@ def mover(rng: np.random.Generator, spheres: int) -> np.ndarray:
     return s
 
 
+def spaces(rng: np.random.Generator, *blocks: int) -> np.ndarray:
+    """Return a world's floats in which a position lies in each of these blocks: at SPACE, at 2 * SPACE."""
+    world = np.zeros(SPACE * (len(blocks) + 1))
+    for number, block in enumerate(blocks, 1):
+        position(world, SPACE * number, rng, block)
+    return world
+
+
 def same(one: np.ndarray, other: np.ndarray, first: int, count: int) -> bool:
     """Say whether so many numbers of two rows have the same bits."""
     return one[first : first + count].tobytes() == other[first : first + count].tobytes()
@@ -56,8 +64,7 @@ def same(one: np.ndarray, other: np.ndarray, first: int, count: int) -> bool:
 def test_piece_by_piece_is_the_whole(seed: int, scale: float, block: int) -> None:
     """Both spheres, the current centre and the up that paths ask for are those of LS-1...LS-4, to the bit."""
     rng = np.random.default_rng(seed)
-    world = np.zeros(256)
-    position(world, SPACE, rng, block)
+    world = spaces(rng, block)
     whole = mover(rng, 2)
     pieces = whole.copy()
     WHOLE(whole, world, SPACE, scale)
@@ -73,8 +80,7 @@ def test_piece_by_piece_is_the_whole(seed: int, scale: float, block: int) -> Non
 def test_entering_the_same_space_again_moves_what_has_moved() -> None:
     """After a step of the check position, the sphere is where it is now; the current centre has stayed."""
     rng = np.random.default_rng(7)
-    world = np.zeros(256)
-    position(world, SPACE, rng, BLOCK)
+    world = spaces(rng, BLOCK)
     s = mover(rng, 1)
     ENTER(s, world, SPACE, 1.0)
     CURRENT(s)
@@ -90,9 +96,7 @@ def test_entering_the_same_space_again_moves_what_has_moved() -> None:
 def test_another_space_has_another_current_centre() -> None:
     """The centre that one space holds is not taken for that of the next."""
     rng = np.random.default_rng(8)
-    world = np.zeros(256)
-    for p in (SPACE, 2 * SPACE):
-        position(world, p, rng, BLOCK)
+    world = spaces(rng, BLOCK, BLOCK)
     s = mover(rng, 1)
     ENTER(s, world, SPACE, 1.0)
     CURRENT(s)
@@ -106,8 +110,7 @@ def test_another_space_has_another_current_centre() -> None:
 def test_who_has_no_sphere_has_none_in_any_space() -> None:
     """Without spheres nothing is put into a space but the space itself, as LS-2 says."""
     rng = np.random.default_rng(9)
-    world = np.zeros(256)
-    position(world, SPACE, rng, BLOCK)
+    world = spaces(rng, BLOCK)
     s = mover(rng, 0)
     ENTER(s, world, SPACE, 1.0)
     CURRENT(s)
