@@ -227,6 +227,8 @@ GATE_LEAST: Final = 0.0625
 """Radius of the smallest sphere that may walk without bounding spheres, metres: it is hundreds of EPS."""
 GATE_MOST: Final = 4.0
 """Radius of the largest one, metres: a human's is 0.48."""
+LATTICE_REACH: Final = 0.5
+"""Radius of the largest sphere for which cubes know what is near, metres: a human's is 0.48."""
 GATE_WAY: Final = 2.0**20
 """Longest movement, metres: back along it no sphere gets where float32 ends."""
 FLIGHT_STEPS: Final = 64.0

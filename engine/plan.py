@@ -36,9 +36,11 @@ class Stage(IntFlag):
     """Inserting the mover in each sub-step of a move indoors of which nothing at all is in reach."""
     BOUNDS = int(at.PLAN_BOUNDS)
     """Testing bounding spheres below a tree's root, where no polygon is outside of one above it."""
+    WALKS = int(at.PLAN_WALKS)
+    """Walking through a cell's tree for what a sphere touches, where nothing that is near it does."""
 
 
-ALL_STAGES: Final = Stage.PORTALS | Stage.OBJECTS | Stage.GROUND | Stage.FLIGHT | Stage.BOUNDS
+ALL_STAGES: Final = Stage.PORTALS | Stage.OBJECTS | Stage.GROUND | Stage.FLIGHT | Stage.BOUNDS | Stage.WALKS
 
 
 @dataclass(frozen=True, slots=True)

@@ -34,9 +34,10 @@ class Work:
         Nodes of trees visited, and polygons tested; those of the broad phase included.
     objects, cells : int
         Objects tested, and cells put on the cell list. Bodies do not tell: 0.
-    portals, things, grounds, flights, unbounded : int
+    portals, things, grounds, flights, unbounded, unwalked : int
         Shortcuts taken (`engine.plan.Stage`): cell lists of one, objects and houses passed over, grounds
-        passed over, sub-steps of free flights, walks through trees without the bounding spheres.
+        passed over, sub-steps of free flights, walks through trees without the bounding spheres, and walks
+        that were not made.
     """
 
     queries: int = 0
@@ -49,6 +50,7 @@ class Work:
     grounds: int = 0
     flights: int = 0
     unbounded: int = 0
+    unwalked: int = 0
 
     def __add__(self, other: Work) -> Work:
         """Return what both did together."""

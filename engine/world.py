@@ -14,6 +14,7 @@ from engine.compiling.bounds import write_bounds
 from engine.compiling.cells import CellNumbers, ObjectLists, write_buildings, write_cells
 from engine.compiling.clearance import write_clearances
 from engine.compiling.ids import id_table
+from engine.compiling.lattice import write_lattices
 from engine.compiling.objects import Parts, write_objects
 from engine.compiling.restrictions import write_restrictions
 from engine.compiling.slopes import write_slopes
@@ -122,6 +123,7 @@ class World:
         header |= write_bounds(storage, header, cells, numbers.ids, listed, counts)
         header |= write_plates(storage, header)
         header |= write_clearances(storage, header, cells)
+        write_lattices(storage, header, cells)
         self.floats, self.ints = storage.finish(header)
         trees = {storage.root_of(shape): shape for shape in self.shapes}
         write_slopes(self.floats, self.ints, trees, len(parts))

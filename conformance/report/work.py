@@ -22,6 +22,7 @@ _SHORTCUTS: Final = (
     ("grounds passed over", "grounds"),
     ("sub-steps flown freely", "flights"),
     ("walks without bounding spheres", "unbounded"),
+    ("walks not made", "unwalked"),
 )
 
 

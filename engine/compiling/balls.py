@@ -32,10 +32,11 @@ def write_plates(storage: Storage, header: Mapping[int, int]) -> dict[int, int]:
     Returns what the header says of them.
     """
     floats, ints = storage.finish(header)
-    begin = min((first for first, _ in storage.leaf_lists), default=0)
-    end = max((first + count for first, count in storage.leaf_lists), default=0)
+    lists = storage.leaf_lists.values()
+    begin = min((first for first, _ in lists), default=0)
+    end = max((first + count for first, count in lists), default=0)
     plates = np.zeros((end - begin, int(at.PLATE_SIZE)), dtype=np.float64)
-    listed = np.concatenate([np.arange(f, f + n) for f, n in storage.leaf_lists] or [np.zeros(0, int)])
+    listed = np.concatenate([np.arange(f, f + n) for f, n in lists] or [np.zeros(0, int)])
     records, index = np.unique(ints[listed], return_inverse=True)
     plates[listed - begin] = np.hstack((planes_of(floats, records), bounding_balls(floats, records)))[index]
     storage.align()

@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Final
 import numpy as np
 
 from engine import layout as at
+from engine.compiling.cubes import cubes_about
 from engine.kernels.clearance import measure_clearance
 from engine.memory import aligned
 
@@ -24,8 +25,6 @@ _CUBES_PER_POLYGON: Final = 128
 """A grid's size, and the time that it takes to make, are bounded by those of its geometry,"""
 _MOST_CUBES: Final = 2**20
 """and by this: a byte each."""
-_COARSER: Final = 1.1
-"""How much longer edges are made until there are few enough cubes."""
 _STEPS_PER_EDGE: Final = 8
 """Resolution of clearances."""
 
@@ -44,9 +43,7 @@ def write_clearances(storage: Storage, header: Mapping[int, int], cells: Sequenc
     row: Array = aligned(int(ints[at.WORLD_ROW]), np.float64)
     row[:] = 0.0
     grids: dict[int, int] = {}
-    for shape in (cell.shape for cell in cells):
-        if shape is None or id(shape) in grids or not len(shape.polygon_offsets):
-            continue
+    for shape in shapes_of(cells):
         grid = _grid_about(shape)
         levels = np.zeros(int(grid[at.CLEARANCE_COUNTS :][:3].prod()), dtype=np.uint8)
         measure_clearance(floats, ints, row, storage.root_of(shape), grid, levels)
@@ -57,19 +54,22 @@ def write_clearances(storage: Storage, header: Mapping[int, int], cells: Sequenc
     return {int(at.WORLD_CLEARANCES): storage.add_ints(table)}
 
 
+def shapes_of(cells: Sequence[Cell]) -> list[Shape]:
+    """Return the shapes of cells that have polygons, each once."""
+    shapes = {id(cell.shape): cell.shape for cell in cells if cell.shape is not None}
+    return [shape for shape in shapes.values() if len(shape.polygon_offsets)]
+
+
 def _grid_about(shape: Shape) -> Array:
     """Divide the box about a shape into cubes: not too many, nor too small."""
-    low, high = shape.bounds.reshape(2, int(at.VECTOR_SIZE))
     most = min(_CUBES_PER_POLYGON * len(shape.polygon_offsets), _MOST_CUBES)
-    edge = _LEAST_EDGE
-    while (counts := np.floor((high - low) / edge) + 1.0).prod() > most:
-        edge *= _COARSER
+    cubes = next(cubes_about(shape, _LEAST_EDGE, most))
     grid = np.zeros(int(at.CLEARANCE_SIZE), dtype=np.float64)
-    grid[at.CLEARANCE_CORNER : at.CLEARANCE_CORNER + at.VECTOR_SIZE] = low
-    grid[at.CLEARANCE_COUNTS : at.CLEARANCE_COUNTS + at.VECTOR_SIZE] = counts
-    grid[at.CLEARANCE_EDGE] = edge
-    grid[at.CLEARANCE_PER_METRE] = 1.0 / edge
-    grid[at.CLEARANCE_STEP] = edge / _STEPS_PER_EDGE
+    grid[at.CLEARANCE_CORNER : at.CLEARANCE_CORNER + at.VECTOR_SIZE] = cubes.corner
+    grid[at.CLEARANCE_COUNTS : at.CLEARANCE_COUNTS + at.VECTOR_SIZE] = cubes.counts
+    grid[at.CLEARANCE_EDGE] = cubes.edge
+    grid[at.CLEARANCE_PER_METRE] = 1.0 / cubes.edge
+    grid[at.CLEARANCE_STEP] = cubes.edge / _STEPS_PER_EDGE
     return grid
 
 

@@ -30,8 +30,8 @@ class Storage:
     ----------
     polygons : list of int
         Where the polygon records of each shape begin.
-    leaf_lists : list of (int, int)
-        Where the leaves' lists of each shape begin in the integers, and how long they are together.
+    leaf_lists : dict of int to (int, int)
+        Where the leaves' lists of each shape, by its `id`, begin in the integers, and how long they are.
     """
 
     def __init__(self, shapes: Sequence[Shape]) -> None:
@@ -44,9 +44,10 @@ class Storage:
         self._floats: list[Array] = []
         self._ints: list[Ints] = []
         self.polygons: Final[list[int]] = []
-        self.leaf_lists: Final[list[tuple[int, int]]] = []
+        self.leaf_lists: Final[dict[int, tuple[int, int]]] = {}
         self._roots: dict[int, int] = {}
         self._planes: dict[int, tuple[int, int]] = {}
+        self._gates: dict[int, tuple[Array, Ints]] = {}
         first = header_nodes
         for index, shape in enumerate(shapes):
             self._add_gate(shape)
@@ -75,6 +76,10 @@ class Storage:
         """Return the root node of a shape's tree."""
         return int(at.NO_TREE) if shape is None else self._roots[id(shape)]
 
+    def gate_of(self, shape: Shape) -> tuple[Array, Ints]:
+        """Return the numbers and the integers of the gate of a shape's tree, to be filled in."""
+        return self._gates[id(shape)]
+
     def planes_of(self, shape: Shape | None) -> tuple[int, int]:
         """Return where a shape's containment planes begin, and how many they are."""
         return (0, int(at.NO_PLANES)) if shape is None else self._planes[id(shape)]
@@ -100,10 +105,12 @@ class Storage:
 
     def _add_gate(self, shape: Shape) -> None:
         """Append what stands before a root, in the room of a node."""
-        gate: Array = np.zeros(at.NODE_FLOATS, dtype=np.float64)
-        gate[at.GATE_RADIUS] = gate_radius(shape)
-        self._node_floats.append(gate)
-        self._node_ints.append(np.zeros(at.NODE_INTS, dtype=np.int64))
+        floats: Array = np.zeros(at.NODE_FLOATS, dtype=np.float64)
+        ints: Ints = np.zeros(at.NODE_INTS, dtype=np.int64)
+        floats[at.GATE_RADIUS] = gate_radius(shape)
+        self._node_floats.append(floats)
+        self._node_ints.append(ints)
+        self._gates[id(shape)] = floats, ints
 
     def _add_shape(self, index: int, shape: Shape, first: int) -> None:
         """Append a shape; its tree gets node numbers from `first` on."""
@@ -113,7 +120,7 @@ class Storage:
         base = self.add_floats(polygons)
         self.polygons.append(base)
         leaf_lists = self.add_ints(base + shape.polygon_offsets[shape.leaf_polygons])
-        self.leaf_lists.append((leaf_lists, len(shape.leaf_polygons)))
+        self.leaf_lists[id(shape)] = leaf_lists, len(shape.leaf_polygons)
         self._node_floats.append(self._with_planes(shape).ravel())
         self._node_ints.append(_packed(shape.node_ints, first, leaf_lists))
         self._roots[id(shape)] = first

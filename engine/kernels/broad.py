@@ -119,7 +119,7 @@ def _edges_beyond(wf: Array, p: int, x: float, y: float, z: float, r: float) -> 
 
 
 @inlined
-def _polygon_beyond(wf: Array, wi: Ints, i: int, x: float, y: float, z: float, r: float) -> bool:
+def polygon_beyond(wf: Array, wi: Ints, i: int, x: float, y: float, z: float, r: float) -> bool:
     """Say whether no sphere inside a ball can touch the polygon that ``wi[i]``, in a leaf's list, names.
 
     Either the ball is clear of the plane: then every sphere in it is BEYOND (SS-1). Or the polygon is
@@ -146,7 +146,7 @@ def _leaf_beyond(wf: Array, wi: Ints, s: Array, leaf: int, x: float, y: float, z
         return True
     s[POLYGONS_TESTED] += count
     for i in range(first, first + count):
-        if not _polygon_beyond(wf, wi, i, x, y, z, r):
+        if not polygon_beyond(wf, wi, i, x, y, z, r):
             return False
     return True
 

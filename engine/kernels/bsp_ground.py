@@ -14,6 +14,7 @@ from engine.kernels.bsp_walkable import find_walkable, hits_walkable
 from engine.kernels.collision_info import set_contact_plane
 from engine.kernels.compile import inlined, kernel
 from engine.kernels.frame import rotate_x_last
+from engine.kernels.lattice import nothing_near
 from engine.kernels.path import add_offset_to_check_pos, entered_sphere, set_walkable
 from engine.kernels.plane import plane_localtoglobal
 from engine.kernels.position import position_localtoglobalvec
@@ -55,6 +56,8 @@ def find_room(wf: Array, wi: Ints, s: Array, root: int) -> int:
     flag = center_check_flag(s)
     for i in range(max(int(s[NUM_SPHERE]), 1)):
         x, y, z, r = entered_sphere(s, i)
+        if nothing_near(wf, wi, s, root, x, y, z, r, flag):
+            continue
         if sphere_intersects_solid(wf, wi, s, root, x, y, z, r, flag):
             return COLLIDED
     return OK

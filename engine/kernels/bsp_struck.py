@@ -18,6 +18,7 @@ from engine.kernels.bsp_search import adjust_to_plane
 from engine.kernels.collision_info import set_collision_normal
 from engine.kernels.compile import inlined, kernel
 from engine.kernels.frame import frame_localtoglobalvec
+from engine.kernels.lattice import nothing_near
 from engine.kernels.path import entered_sphere, set_collide, set_neg_poly_hit
 from engine.kernels.position import position_localtoglobalvec
 from engine.kernels.sphere import slide_sphere
@@ -44,6 +45,8 @@ def _strikes(
 ) -> tuple[bool, int]:
     """Search for the polygon that one of the row's spheres strikes."""
     x, y, z, r = entered_sphere(s, sphere)
+    if nothing_near(wf, wi, s, root, x, y, z, r, 0):
+        return False, NO_POLYGON
     return sphere_intersects_poly(wf, wi, s, root, x, y, z, r, mx, my, mz, NO_POLYGON)
 
 

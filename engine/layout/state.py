@@ -133,7 +133,7 @@ SCRATCH_FRAME: Final = _row.field("scratch_frame", POSITION_SIZE)
 """The frame that find_placement_pos turns around."""
 PLAN: Final = _row.field("plan")
 """Which shortcuts may be taken: bits `PLAN_PORTALS`, ... (`engine.plan`)."""
-SKIPPED_SIZE: Final = frozen(5)
+SKIPPED_SIZE: Final = frozen(6)
 """How many shortcuts there are."""
 SKIPPED: Final = _row.field("skipped", SKIPPED_SIZE)
 """How often each was, in the order of the bits; of objects, how many were passed over; of bounds, in how many
@@ -147,11 +147,13 @@ PLAN_OBJECTS: Final = frozen(2)
 PLAN_GROUND: Final = frozen(4)
 PLAN_FLIGHT: Final = frozen(8)
 PLAN_BOUNDS: Final = frozen(16)
+PLAN_WALKS: Final = frozen(32)
 SKIPPED_PORTALS: Final = frozen(SKIPPED)
 SKIPPED_OBJECTS: Final = frozen(SKIPPED + 1)
 SKIPPED_GROUND: Final = frozen(SKIPPED + 2)
 SKIPPED_FLIGHT: Final = frozen(SKIPPED + 3)
 SKIPPED_BOUNDS: Final = frozen(SKIPPED + 4)
+SKIPPED_WALKS: Final = frozen(SKIPPED + 5)
 
 STATE_SIZE: Final = frozen(_row.size)
 STATE_DTYPE: Final = _row.dtype()

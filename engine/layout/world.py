@@ -36,6 +36,31 @@ GATE_RADIUS: Final = frozen(0)
 """Of a gate's floats: of how large a sphere the walk needs no bounding spheres, metres, or `NO_GATE`
 (`engine.kernels.gate`)."""
 NO_GATE: Final = -math.inf
+LATTICE_CORNER: Final = frozen(1)
+"""Of a gate's floats: the least x, y, z of the cubes that know what is near (`engine.kernels.lattice`), in
+the frame of the tree, metres."""
+LATTICE_PER_METRE: Final = frozen(4)
+"""Cubes in a metre."""
+LATTICE_COUNTS: Final = frozen(5)
+"""Cubes along x, y, z, in whole blocks; 0 in a tree without."""
+LATTICE_TABLE: Final = frozen(0)
+"""Of a gate's integers: where the table begins of where the words of each block of cubes do."""
+LATTICE_LISTS: Final = frozen(1)
+"""Where the lists begin that those point to: polygons, by the offsets of their records."""
+LATTICE_BLOCK: Final = frozen(2)
+"""A block is 2**2 cubes along each axis. Blocks whose words are all the same, in rock or in mid-air, are kept
+once."""
+LATTICE_BLOCK_MASK: Final = frozen(3)
+WORD_BITS: Final = frozen(32)
+WORD_MASK: Final = frozen(0xFFFF_FFFF)
+"""An integer holds two words, or two polygons of a list, the first one lower."""
+WORD_SOLID: Final = frozen(1)
+"""In a word: whether a centre in the cube may be in a solid leaf that lists polygons."""
+WORD_COUNT_SHIFT: Final = frozen(1)
+WORD_LIST_SHIFT: Final = frozen(6)
+"""Above that bit, how many polygons are near the cube, and above those, where in the lists they are."""
+CROWDED: Final = frozen(31)
+"""In place of their number, if they are not listed."""
 LEAF_PLANES: Final = frozen(0)
 """Of a leaf's floats, in a tree that has a wide one: where in the world's floats the planes of its polygons
 begin, in blocks of `ABREAST`."""

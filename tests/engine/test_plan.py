@@ -203,5 +203,5 @@ def test_a_trace_takes_no_shortcut() -> None:
 def test_prepared_queries_take_shortcuts() -> None:
     """Unless they are told not to."""
     world, move = world_of(triangle()), stride(mover(), 0.0, 3.0)
-    assert Prepared(world, move).run()["skipped"].tolist() == [0.0, 0.0, 0.0, 1.0, 0.0]
+    assert Prepared(world, move).run()["skipped"].tolist() == [0.0, 0.0, 0.0, 1.0, 0.0, 0.0]
     assert not Prepared(world, move, plan=Plan.none()).run()["skipped"].any()

@@ -1,0 +1,137 @@
+"""Lattices: which polygons are near each cube of the box about a cell's tree (`engine.kernels.lattice`)."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Final
+
+import numpy as np
+
+from engine import layout as at
+from engine.compiling.clearance import shapes_of
+from engine.compiling.cubes import cubes_about
+from engine.constants import BOUND_ROUNDING, BOUND_SLACK, LATTICE_REACH
+from engine.kernels.lattice_making import note_near, note_solid, share_lists
+from engine.memory import aligned
+
+if TYPE_CHECKING:
+    from collections.abc import Mapping, Sequence
+
+    from engine.cells import Cell
+    from engine.compiling.cubes import Cubes
+    from engine.compiling.storage import Storage
+    from engine.geometry import Shape
+    from engine.kernels.types import Array, Ints
+
+_LEAST_EDGE: Final = 0.35
+"""Edge of a cube, metres, where there are cubes enough: in finer ones lists are hardly shorter."""
+_CUBES_PER_POLYGON: Final = 1024
+"""A lattice's size is bounded by that of its geometry,"""
+_MOST_CUBES: Final = 2**21
+"""and by this: most cubes are of blocks that are kept once."""
+_TESTS_PER_POLYGON: Final = 16384
+"""How many cubes a polygon may be held against on average: some 10 ns each, twice."""
+_LISTED_PER_POLYGON: Final = 96
+"""Numbers in all lists together: of a cube that has no room for its own, nothing is known,"""
+_MOST_LISTED: Final = 1 << int(at.WORD_BITS - at.WORD_LIST_SHIFT)
+"""nor beyond what a word can say."""
+
+
+def write_lattices(storage: Storage, header: Mapping[int, int], cells: Sequence[Cell]) -> None:
+    """Write a lattice for each tree of an environment cell, and where it is into the tree's gate.
+
+    Parameters
+    ----------
+    header : mapping
+        What it says of the rest, which is all written: plates of polygons are needed, too.
+    cells : sequence of Cell
+        The environment cells.
+    """
+    floats, ints = storage.finish(header)
+    row: Array = aligned(int(ints[at.WORLD_ROW]), np.float64)
+    row[:] = 0.0
+    for shape in shapes_of(cells):
+        listed = _listed(storage, ints, shape)
+        cubes, ranges = _divided(shape, _balls(floats, ints, listed))
+        gate, places = storage.gate_of(shape)
+        gate[at.LATTICE_CORNER : at.LATTICE_CORNER + at.VECTOR_SIZE] = cubes.corner
+        gate[at.LATTICE_PER_METRE] = 1.0 / cubes.edge
+        gate[at.LATTICE_COUNTS : at.LATTICE_COUNTS + at.VECTOR_SIZE] = cubes.counts
+        words = np.zeros(cubes.size, dtype=np.int64)
+        note_solid(floats, ints, row, storage.root_of(shape), gate, words)
+        begins, ends, near = _near(floats, ints, gate, listed, ranges, cubes.size)
+        room = min(_LISTED_PER_POLYGON * len(shape.polygon_offsets), _MOST_LISTED)
+        lists = np.empty(room, dtype=np.int64)
+        used = share_lists(gate, begins, ends, near, words, lists)
+        blocks, numbers = _shared(words)
+        first = storage.add_ints(blocks.ravel())
+        places[at.LATTICE_TABLE] = storage.add_ints(first + blocks.shape[1] * numbers)
+        places[at.LATTICE_LISTS] = storage.add_ints(_packed(lists[:used]))
+
+
+def _listed(storage: Storage, ints: Ints, shape: Shape) -> Ints:
+    """Return where in the leaves' lists each polygon of a shape's tree is, once."""
+    first, count = storage.leaf_lists[id(shape)]
+    _, index = np.unique(ints[first : first + count], return_index=True)
+    return first + index
+
+
+def _balls(floats: Array, ints: Ints, listed: Ints) -> Array:
+    """Return the ball about each polygon, by where it is listed."""
+    plates = ints[at.WORLD_LEAF_BOUNDS] + at.PLATE_SIZE * listed
+    balls: Array = floats[plates[:, None] + at.PLATE_BALL + np.arange(int(at.SPHERE_SIZE))]
+    return balls
+
+
+def _divided(shape: Shape, balls: Array) -> tuple[Cubes, Ints]:
+    """Return the finest cubes that do not take too long to look at, and to which each polygon may be near.
+
+    Those are given as the first of them along x, y and z, and the ones behind the last.
+    """
+    number = len(shape.polygon_offsets)
+    most = min(_CUBES_PER_POLYGON * number, _MOST_CUBES)
+    block = 1 << int(at.LATTICE_BLOCK)
+    far = BOUND_SLACK + BOUND_ROUNDING * 2.0 * float(np.abs(shape.bounds).sum())
+    for cubes in cubes_about(shape, _LEAST_EDGE, most, block):
+        reach = balls[:, at.RADIUS :] + LATTICE_REACH + cubes.edge + far
+        middles = balls[:, : at.VECTOR_SIZE] - cubes.corner
+        begins = np.clip(np.floor((middles - reach) / cubes.edge) - 1.0, 0.0, cubes.counts)
+        ends = np.clip(np.floor((middles + reach) / cubes.edge) + 2.0, 0.0, cubes.counts)
+        if (ends - begins).prod(axis=1).sum() <= _TESTS_PER_POLYGON * number or cubes.size == block**3:
+            break
+    return cubes, np.hstack((begins, ends)).astype(np.int64)
+
+
+def _near(
+    floats: Array, ints: Ints, gate: Array, listed: Ints, ranges: Ints, size: int
+) -> tuple[Ints, Ints, Ints]:
+    """Return of each cube where its polygons begin and end, and the polygons of all of them."""
+    counts = np.zeros(size, dtype=np.int64)
+    nothing = np.empty(0, dtype=np.int64)
+    note_near(floats, ints, gate, listed, ranges, counts, nothing)
+    begins = np.cumsum(counts) - counts
+    ends, near = begins.copy(), np.empty(int(counts.sum()), dtype=np.int64)
+    note_near(floats, ints, gate, listed, ranges, ends, near)
+    return begins, ends, near
+
+
+def _shared(words: Ints) -> tuple[Ints, Ints]:
+    """Return the words of blocks, two in each integer, and for each block which of those are its own.
+
+    Blocks whose words are all the same are kept once.
+    """
+    blocks = words.reshape(-1, 1 << 3 * int(at.LATTICE_BLOCK))
+    uniform = (blocks == blocks[:, :1]).all(axis=1)
+    values, which = np.unique(blocks[uniform, 0], return_inverse=True)
+    same = np.broadcast_to(values[:, None], (len(values), blocks.shape[1]))
+    numbers = np.empty(len(blocks), dtype=np.int64)
+    numbers[uniform] = which
+    numbers[~uniform] = len(values) + np.arange((~uniform).sum())
+    kept = np.concatenate([same, blocks[~uniform]])
+    return _packed(kept.ravel()).reshape(len(kept), -1), numbers
+
+
+def _packed(words: Ints) -> Ints:
+    """Put two numbers into each integer, the first one into the lower half."""
+    pairs = np.pad(words, (0, len(words) % 2)).reshape(-1, 2)
+    packed: Ints = pairs[:, 0] | pairs[:, 1] << int(at.WORD_BITS)
+    return packed

@@ -1,0 +1,121 @@
+"""The lattice of a tree: what is near, looked up instead of walked for.
+
+Most walks of a mover through a tree find nothing: the ground under it is at its radius, and not nearer. When
+a world is made, the box about a cell's tree is divided into cubes, and for each those polygons are listed
+that a sphere with its centre there may touch (`engine.kernels.lattice_making`): three, as a rule, where a
+walk comes to a dozen nodes and tests two dozen polygons.
+"""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from engine.constants import LATTICE_REACH
+from engine.kernels.compile import inlined, kernel
+from engine.kernels.indexing import unsigned
+from engine.kernels.plan import allows
+from engine.kernels.polygon import polygon_hits_sphere_slow_but_sure
+from engine.kernels.polygon_edges import HIT
+from engine.layout import (
+    CROWDED,
+    GATE,
+    LATTICE_BLOCK,
+    LATTICE_BLOCK_MASK,
+    LATTICE_CORNER,
+    LATTICE_COUNTS,
+    LATTICE_LISTS,
+    LATTICE_PER_METRE,
+    LATTICE_TABLE,
+    NODE_FLOATS,
+    NODE_INTS,
+    PLAN_WALKS,
+    POLYGONS_TESTED,
+    SKIPPED_WALKS,
+    WORD_BITS,
+    WORD_COUNT_SHIFT,
+    WORD_LIST_SHIFT,
+    WORD_MASK,
+    WORD_SOLID,
+)
+
+if TYPE_CHECKING:
+    from engine.kernels.types import Array, Ints
+
+_UNKNOWN = CROWDED << WORD_COUNT_SHIFT
+"""The word of a point that is in no cube."""
+
+
+@inlined
+def half(wi: Ints, first: int, k: int) -> int:
+    """Return the k-th of the numbers from `first` on of which an integer holds two."""
+    return (wi[unsigned(first + (k >> 1))] >> WORD_BITS * (k & 1)) & WORD_MASK
+
+
+@inlined
+def block_of(a: int, b: int, c: int, ny: int, nz: int) -> int:
+    """Return the number of the block that a cube is in, z changing fastest.
+
+    `ny`, `nz`: cubes along y and z, in whole blocks.
+    """
+    n = LATTICE_BLOCK
+    return ((a >> n) * (ny >> n) + (b >> n)) * (nz >> n) + (c >> n)
+
+
+@inlined
+def within(a: int, b: int, c: int) -> int:
+    """Return the number of a cube in its block, z changing fastest."""
+    n, m = LATTICE_BLOCK, LATTICE_BLOCK_MASK
+    return ((a & m) << n | b & m) << n | c & m
+
+
+@inlined
+def _word_at(wf: Array, wi: Ints, root: int, x: float, y: float, z: float) -> int:
+    """Return the word of the cube that a point of a tree's space is in; NaN is in none."""
+    g = unsigned(NODE_FLOATS * (root + GATE))
+    scale = wf[g + LATTICE_PER_METRE]
+    u = scale * (x - wf[g + LATTICE_CORNER])
+    v = scale * (y - wf[g + LATTICE_CORNER + 1])
+    w = scale * (z - wf[g + LATTICE_CORNER + 2])
+    ny, nz = wf[g + LATTICE_COUNTS + 1], wf[g + LATTICE_COUNTS + 2]
+    if not (0.0 <= u < wf[g + LATTICE_COUNTS] and 0.0 <= v < ny and 0.0 <= w < nz):
+        return _UNKNOWN
+    table = wi[unsigned(NODE_INTS * (root + GATE) + LATTICE_TABLE)]
+    a, b, c = int(u), int(v), int(w)
+    block = wi[unsigned(table + block_of(a, b, c, int(ny), int(nz)))]
+    return half(wi, block, within(a, b, c))
+
+
+@kernel
+def nothing_near(
+    wf: Array, wi: Ints, s: Array, root: int, x: float, y: float, z: float, r: float, center_check: int
+) -> bool:
+    """Say whether a walk with a sphere is certain to find nothing: no polygon, and no solid leaf.
+
+    `center_check`: whether a solid leaf counts that holds the centre, as of `sphere_intersects_solid`.
+
+    Of all polygons of the tree, those that the centre's cube does not list are BEYOND every sphere of up to
+    `LATTICE_REACH` with its centre there, or it MISSes them. Those that it lists are asked, as a walk asks
+    them. If none is HIT then, no leaf that a walk comes to has one, whichever those are; it would end with
+    the polygon that it began with, and with no answer but that of a solid leaf. Whether there may be one,
+    the cube says, too.
+
+    A walk may leave a point of contact, too, which a transition never reads (03, 16), and counters of work.
+
+    retail: BSPNODE::sphere_intersects_poly 0x0053CA30, SP-4...SP-6;
+    BSPNODE::sphere_intersects_solid 0x0053CAF0, SO-6...SO-8
+    """
+    if not 0.0 <= r <= LATTICE_REACH or not allows(s, PLAN_WALKS):
+        return False
+    word = _word_at(wf, wi, root, x, y, z)
+    count = (word >> WORD_COUNT_SHIFT) & CROWDED
+    if count == CROWDED or (word & WORD_SOLID and center_check != 0):
+        return False
+    lists = wi[unsigned(NODE_INTS * (root + GATE) + LATTICE_LISTS)]
+    first = word >> WORD_LIST_SHIFT
+    s[POLYGONS_TESTED] += count
+    for i in range(first, first + count):
+        code, _, _, _ = polygon_hits_sphere_slow_but_sure(wf, half(wi, lists, i), x, y, z, r)
+        if code == HIT:
+            return False
+    s[SKIPPED_WALKS] += 1.0
+    return True
