@@ -12,6 +12,7 @@ from engine.checks import LARGEST_INDEX, whole
 from engine.errors import QueryError
 from engine.given import room, rooms
 from engine.kernels import tree_calls
+from engine.kernels.within import all_within
 from engine.plan import CALL_PLAN, Plan
 from engine.world import CHECK_WORLD
 
@@ -203,12 +204,13 @@ def _array(values: npt.ArrayLike, where: str) -> Array:
     """Return an array of the one kind that kernels are compiled for: it could also be written to.
 
     Its numbers are rounded to float32 by the kernels, which takes each as it is: so all of them are looked at
-    here, by their least and their greatest, which are NaN if any is.
+    here.
     """
     try:
         array = np.ascontiguousarray(values, dtype=np.float64)
     except (TypeError, ValueError) as error:
         raise QueryError(where, f"not an array of numbers ({error})") from error
-    if array.size and not (array.min() >= -_LARGEST and array.max() <= _LARGEST):
+    array = array if array.flags.carray else array.copy()
+    if not all_within(array.reshape(-1), _LARGEST):
         raise QueryError(where, "not all of them are finite float32s")
-    return array if array.flags.carray else array.copy()
+    return array
