@@ -36,18 +36,20 @@ if TYPE_CHECKING:
 
     from engine.kernels.types import Ints
 
+_LANE, _NEXT, _END = int(LANE_INTS), int(LANE_NEXT), int(LANE_END)
+"""As Python's own integers, with which it calculates faster."""
 PATIENCE: Final = 0.0005
 """Seconds in which a helper's last turn is waited for awake: to be woken takes as long as many queries."""
 
 
 def new_share(count: int, threads: int = 1) -> Ints:
     """Return what so many threads share of so many queries, before the first is taken."""
-    share = np.zeros((1 + threads) * int(LANE_INTS), dtype=np.int64)
+    share = np.zeros((1 + threads) * _LANE, dtype=np.int64)
     share[SHARE_LANES] = threads
     for lane in range(threads):
-        first = int(LANE_INTS) * (1 + lane)
-        share[first + LANE_NEXT] = count * lane // threads
-        share[first + LANE_END] = count * (lane + 1) // threads
+        first = (1 + lane) * _LANE
+        share[first + _NEXT] = count * lane // threads
+        share[first + _END] = count * (lane + 1) // threads
     return share
 
 
@@ -96,7 +98,7 @@ def together(work: Callable[[Ints], None], count: int, threads: int) -> int:
     try:
         work(share)
     except BaseException:
-        share[LANE_INTS + LANE_NEXT :: LANE_INTS] = count
+        share[_LANE + _NEXT :: _LANE] = count
         raise
     finally:
         _await(share, count, helping)

@@ -16,7 +16,7 @@ from engine.constants import frozen
 from engine.kernels.compile import inlined
 
 if TYPE_CHECKING:
-    from engine.kernels.types import Array
+    from engine.kernels.types import Array, Ints
 
 LINE: Final = frozen(8)
 """Numbers in a cache line."""
@@ -52,7 +52,7 @@ _to_second: Final[Any] = _hint(_SECOND)
 
 
 @inlined
-def bring_near(rows: Array, first: int, count: int) -> None:
+def bring_near(rows: Array | Ints, first: int, count: int) -> None:
     """Have so many numbers of an array's memory, from the first on, brought into the first cache."""
     for k in range(0, count, LINE):
         _to_first(rows, first + k)

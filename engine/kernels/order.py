@@ -16,16 +16,7 @@ from engine.constants import ACTIVE_TS, BLOCK_EDGE, frozen
 from engine.kernels.ahead import bring_near
 from engine.kernels.compile import entry, inlined, kernel
 from engine.kernels.indexing import unsigned
-from engine.kernels.sharing import (
-    LANE_END,
-    LANE_INTS,
-    LANE_NEXT,
-    SHARE_REORDERED,
-    add_to,
-    is_first,
-    make_ready,
-    wait_for,
-)
+from engine.kernels.sharing import SHARE_REORDERED, end_part, take_part, wait_for
 from engine.layout import (
     COLLISION_INFO,
     CONTACT_VALID,
@@ -77,6 +68,15 @@ EARLY: Final = frozen(12)
 _FAR: Final = 2.0**40
 """Metres, and a multiple of all periods of buckets: added to a number that is nearer it makes it positive, so
 that its whole part is the whole number below. What is farther, or no number, is at 0."""
+DECIDE: Final = frozen(0)
+"""Stages of sorting. The first: whether it pays; one part, that is one thread decides for all."""
+TALLY: Final = frozen(1)
+"""Each part finds the buckets of its rows, and counts them."""
+LAY_OUT: Final = frozen(2)
+"""One part says from the counts where the rows of each bucket, and of each part, begin."""
+PUT: Final = frozen(3)
+"""Each part puts its rows there."""
+STAGES: Final = frozen(4)
 _CONTACT_VALID: Final = frozen(Q_COLLISION_INFO - COLLISION_INFO + CONTACT_VALID)
 """Whether a query's mover stands on something."""
 
@@ -147,118 +147,123 @@ def _is_worth_it(kind: int, row: Array) -> bool:
 
 
 @inlined
-def _are_worth_it(kind: int, rows: Array, first: int, last: int) -> bool:
-    """Say, from a few of some rows, whether most are worth it."""
+def _are_worth_it(kind: int, rows: Array) -> bool:
+    """Say, from a few of the rows, whether most are worth it."""
     asked, worth = 0, 0
-    for i in range(first, last, (last - first) // FEW | 1):
+    for i in range(0, len(rows), len(rows) // FEW | 1):
         asked += 1
         worth += _is_worth_it(kind, rows[unsigned(i)])
     return 2 * worth > asked
 
 
 @inlined
-def _are_apart(kind: int, rows: Array, first: int, last: int, buckets: Order) -> bool:
-    """Say, from a sample of some rows, whether they are not near each other as they lie.
+def _are_apart(kind: int, rows: Array, columns: Order) -> bool:
+    """Say, from a sample of the rows, whether they are not near each other as they lie.
 
-    `buckets` are empty, before and afterwards.
+    `columns` is room for a mark on each column of buckets.
     """
-    step = (last - first) // SAMPLE | 1
-    columns = 0
-    for i in range(first, last, step):
+    for c in range(BUCKETS >> UPWARDS):
+        columns[c] = 0
+    found = 0
+    for i in range(0, len(rows), len(rows) // SAMPLE | 1):
         column = unsigned(_bucket_of(kind, rows[unsigned(i)]) >> UPWARDS)
-        columns += buckets[column] == 0
-        buckets[column] = 1
-    for i in range(first, last, step):
-        buckets[unsigned(_bucket_of(kind, rows[unsigned(i)]) >> UPWARDS)] = 0
-    return columns >= (FEWEST_OF_CALLS if kind == CALLS else FEWEST)
+        found += columns[column] == 0
+        columns[column] = 1
+    return found >= (FEWEST_OF_CALLS if kind == CALLS else FEWEST)
 
 
 @inlined
-def _pays(kind: int, rows: Array, first: int, last: int, buckets: Order) -> bool:
-    """Say whether it pays to sort some rows; `buckets` are empty then."""
-    if last - first < SMALLEST or not _are_worth_it(kind, rows, first, last):
-        return False
+def _decide(kind: int, rows: Array, order: Order, share: Ints) -> None:
+    """Note how many rows will be sorted: all of them, or none, which then stay as they lie."""
+    count = len(rows)
+    if count >= SMALLEST and _are_worth_it(kind, rows) and _are_apart(kind, rows, order[2 * count :]):
+        share[SHARE_REORDERED] = count
+    else:
+        for i in range(count):
+            order[unsigned(i)] = i
+
+
+@inlined
+def _tally(kind: int, rows: Array, first: int, last: int, own: Order, buckets: Order) -> None:
+    """Find the bucket of each of some rows, and how many are in each."""
     for b in range(BUCKETS):
         buckets[b] = 0
-    return _are_apart(kind, rows, first, last, buckets)
+    for i in range(first, last):
+        _bring_place(kind, rows, i + EARLY)
+        bucket = unsigned(_bucket_of(kind, rows[unsigned(i)]))
+        own[unsigned(i)] = bucket
+        buckets[bucket] += 1
+
+
+@inlined
+def _lay_out(buckets: Order) -> None:
+    """Replace all counts by places: a bucket behind the other, and in it a part's rows behind the other's."""
+    place = 0
+    for b in range(BUCKETS):
+        for at in range(b, len(buckets), BUCKETS):
+            count = buckets[unsigned(at)]
+            buckets[unsigned(at)] = place
+            place += count
+
+
+@inlined
+def _put(first: int, last: int, order: Order, own: Order, buckets: Order) -> None:
+    """Put the numbers of some rows where their buckets are."""
+    for i in range(first, last):
+        bucket = unsigned(own[unsigned(i)])
+        order[unsigned(buckets[bucket])] = i
+        buckets[bucket] += 1
 
 
 @kernel
-def put_in_order(
-    kind: int, rows: Array, first: int, last: int, order: Order, own: Order, buckets: Order
-) -> int:
-    """Sort some rows by their buckets, each bucket in the order in which its rows lie, if that pays.
+def _do_part(kind: int, rows: Array, order: Order, share: Ints, stage: int, part: int, parts: int) -> None:
+    """Do a part of a stage; see `put_in_order`."""
+    count = len(rows)
+    own, buckets = order[count : 2 * count], order[2 * count :]
+    first, last = count * part // parts, count * (part + 1) // parts
+    mine = buckets[BUCKETS * part : BUCKETS * (part + 1)]
+    if stage == DECIDE:
+        _decide(kind, rows, order, share)
+    elif stage == TALLY:
+        _tally(kind, rows, first, last, own, mine)
+    elif stage == LAY_OUT:
+        _lay_out(buckets)
+    else:
+        _put(first, last, order, own, mine)
 
-    It is a counting sort.
+
+@kernel
+def put_in_order(kind: int, rows: Array, order: Order, share: Ints) -> None:
+    """Sort rows by their buckets, each bucket in the order in which its rows lie, if that pays.
+
+    It is a counting sort. All threads of a share call it, and each returns when all rows are in order: they
+    share the parts of every stage. A thread that comes late finds less to do, or nothing.
 
     Parameters
     ----------
     kind : int
         What rows they are: one of the numbers above.
     rows : ndarray, shape (n, size)
-    first, last : int
-        Which rows: those before `last`.
-    order : ndarray of int32, shape (n,)
-        Takes their numbers, at the same places.
-    own : ndarray of int32, shape (n,)
-        Room for each row's bucket, at the same places.
-    buckets : ndarray of int32, shape (BUCKETS,)
-        Room for how many rows are in each.
-
-    Returns
-    -------
-    int
-        How many rows have been sorted: all of them or none.
-    """
-    if not _pays(kind, rows, first, last, buckets):
-        for i in range(first, last):
-            order[unsigned(i)] = i
-        return 0
-    for i in range(first, last):
-        _bring_place(kind, rows, i + EARLY)
-        bucket = unsigned(_bucket_of(kind, rows[unsigned(i)]))
-        own[unsigned(i)] = bucket
-        buckets[bucket] += 1
-    place = first
-    for b in range(BUCKETS):
-        count = buckets[b]
-        buckets[b] = place
-        place += count
-    for i in range(first, last):
-        bucket = unsigned(own[unsigned(i)])
-        order[unsigned(buckets[bucket])] = i
-        buckets[bucket] += 1
-    return last - first
-
-
-@kernel
-def order_lane(kind: int, rows: Array, order: Order, share: Ints, lane: int) -> None:
-    """Have the rows of a lane sorted by the thread that comes to it first; the others wait until it has.
-
-    Parameters
-    ----------
-    kind, rows
-        As those of `put_in_order`.
-    order : ndarray of int32, shape (0,) or (2 n + lanes * BUCKETS,)
-        Takes the numbers of rows, and holds the room for sorting behind them. Empty: they stay as they lie.
+    order : ndarray of int32, shape (0,) or (2 n + parts * BUCKETS,)
+        Takes the numbers of the rows. Behind them is room for each row's bucket, and for how many rows each
+        part has in each. Empty: they stay as they lie.
     share : ndarray of int64
-    lane : int
-        Where it lies in the share.
+        Takes how many have been sorted, all of them or none: `SHARE_REORDERED`.
     """
-    if len(order) == 0:
-        return
-    if is_first(share, lane):
-        count = len(rows)
-        room = 2 * count + BUCKETS * (lane // LANE_INTS - 1)
-        own, buckets = order[count : 2 * count], order[room : room + BUCKETS]
-        first, last = share[lane + LANE_NEXT], share[lane + LANE_END]
-        add_to(share, SHARE_REORDERED, put_in_order(kind, rows, first, last, order, own, buckets))
-        make_ready(share, lane)
-    else:
-        wait_for(share, lane)
+    most = max(len(order) - 2 * len(rows), 0) // BUCKETS
+    for stage in range(STAGES):
+        parts = most if stage in (TALLY, PUT) else min(most, 1)
+        part = take_part(share, stage)
+        while part < parts:
+            _do_part(kind, rows, order, share, stage, part, parts)
+            end_part(share, stage)
+            part = take_part(share, stage)
+        wait_for(share, stage, parts)
+        if share[SHARE_REORDERED] == 0:
+            return
 
 
 @entry
-def order_all(kind: int, rows: Array, order: Order, own: Order, buckets: Order) -> int:
+def order_all(kind: int, rows: Array, order: Order, share: Ints) -> None:
     """Sort all rows; see `put_in_order`."""
-    return put_in_order(kind, rows, 0, len(rows), order, own, buckets)
+    put_in_order(kind, rows, order, share)

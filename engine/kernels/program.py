@@ -14,7 +14,7 @@ from engine.kernels.ahead import bring_near, bring_nearer
 from engine.kernels.collisions import collide
 from engine.kernels.compile import entry, inlined, kernel
 from engine.kernels.object_calls import meet
-from engine.kernels.order import BODIES, CALLS, MOVES, order_lane, turn
+from engine.kernels.order import BODIES, CALLS, MOVES, put_in_order, turn
 from engine.kernels.resolving import resolve
 from engine.kernels.sharing import SHARE_LANES, join, lane_after, put_back, take
 from engine.kernels.strangers import (
@@ -149,13 +149,13 @@ def _do_some(
 def run(wf: Array, wi: Ints, s: Array, job: int, rows: Array, out: Array, order: Order, share: Ints) -> None:
     """Do a job for rows that are taken from a share, one after the other, in one row of state.
 
-    `order` has room for which row has which turn (`engine.kernels.order.order_lane`); none: as they lie.
+    `order` has room for which row has which turn (`engine.kernels.order.put_in_order`); none: as they lie.
     `out` gets a row of results for each query; what it is for bodies, `STEP`, `UPDATE` and `PLACE` say.
     """
     own = join(share)
+    put_in_order(_kind_of(job), rows, order, share)
     for k in range(share[SHARE_LANES]):
         lane = lane_after(share, own, k)
-        order_lane(_kind_of(job), rows, order, share, lane)
         first, last = take(share, lane)
         while first < last:
             put_back(share, last - first, _do_some(wf, wi, s, job, rows, out, order, first, last))

@@ -1,7 +1,8 @@
 """Many rows shared by threads: each begins with rows of its own, and then helps the others with theirs.
 
-Rows are cut into lanes, one for each thread, of rows that lie together: two threads that wrote beside each
-other would take each other's cache lines away. A thread takes the next few rows of its lane when it is done
+Rows are cut into lanes, one for each thread, of rows that are answered one after the other: so each thread
+has its own part of space. Before the first is taken all may have to be put in order, in stages that threads
+do together. A thread takes the next few rows of its lane when it is done
 with the last, and when there are none left, those of the other lanes. What they share is an array of
 integers; rows are taken inside compiled code, without the interpreter's lock, in one step that no other
 thread can come between.
@@ -30,16 +31,17 @@ SHARE_DONE: Final = frozen(3)
 """How many have been done with, answered or not: when it is all of them, nobody needs to be waited for."""
 SHARE_REORDERED: Final = frozen(4)
 """How many have been put in another order than they lie in (`engine.kernels.order`)."""
+SHARE_STAGES: Final = frozen(5)
+"""Where the counters of the first stage are (`take_part`)."""
+STAGE_INTS: Final = frozen(2)
+"""Counters of a stage: the parts of it that somebody has taken, and those that are done."""
+STAGE_DONE: Final = frozen(1)
 LANE_INTS: Final = frozen(16)
 """Integers of a lane, and of what is before the first: two cache lines, since they are fetched in pairs."""
 LANE_NEXT: Final = frozen(0)
 """The first row of the lane that nobody has taken."""
 LANE_END: Final = frozen(1)
 """The row behind its last."""
-LANE_BEGUN: Final = frozen(2)
-"""How many threads have come to the lane."""
-LANE_READY: Final = frozen(3)
-"""1 when its rows may be taken, if something has to be done before."""
 PARTS: Final = frozen(4)
 """A turn is one of so many parts of what is left in a lane, so that nobody is waited for with much to do."""
 FEWEST: Final = frozen(4)
@@ -84,21 +86,27 @@ def lane_after(share: Ints, own: int, k: int) -> int:
 
 
 @inlined
-def is_first(share: Ints, lane: int) -> bool:
-    """Say, once for a lane, that the thread is the first to come to it, and has to call `make_ready`."""
-    return add_to(share, lane + LANE_BEGUN, 1) == 0
+def take_part(share: Ints, stage: int) -> int:
+    """Take a part of a stage, which is work that has to be done before any row may be taken.
+
+    Returns
+    -------
+    int
+        Which part; there is none left if there are not so many.
+    """
+    return add_to(share, SHARE_STAGES + STAGE_INTS * stage, 1)
 
 
 @inlined
-def make_ready(share: Ints, lane: int) -> None:
-    """Let those in that wait for a lane; they see what the thread has written."""
-    add_to(share, lane + LANE_READY, 1)
+def end_part(share: Ints, stage: int) -> None:
+    """Note that a part of a stage is done; who has waited for it sees what the thread has written."""
+    add_to(share, SHARE_STAGES + STAGE_INTS * stage + STAGE_DONE, 1)
 
 
 @inlined
-def wait_for(share: Ints, lane: int) -> None:
-    """Wait, awake, until a lane is ready: less long than it takes to fall asleep."""
-    while add_to(share, lane + LANE_READY, 0) == 0:
+def wait_for(share: Ints, stage: int, parts: int) -> None:
+    """Wait, awake, until all parts of a stage are done: less long than it takes to fall asleep."""
+    while add_to(share, SHARE_STAGES + STAGE_INTS * stage + STAGE_DONE, 0) < parts:
         pass
 
 

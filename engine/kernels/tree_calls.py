@@ -9,7 +9,7 @@ from engine.kernels.ahead import bring_near
 from engine.kernels.bsp_poly import sphere_intersects_poly
 from engine.kernels.bsp_walkable import find_walkable
 from engine.kernels.compile import entry, inlined, kernel
-from engine.kernels.order import SPHERES, order_lane, turn
+from engine.kernels.order import SPHERES, put_in_order, turn
 from engine.kernels.rounding import f32
 from engine.kernels.sharing import SHARE_LANES, join, lane_after, put_back, take
 from engine.layout import (
@@ -36,7 +36,7 @@ def _vector(a: Array, i: int) -> Vector:
 
 
 @inlined
-def _bring(rows: Array, i: int, size: int) -> None:
+def _bring(rows: Array | Ints, i: int, size: int) -> None:
     """Have one of many vectors, or single numbers, brought near: its first number, and its last."""
     bring_near(rows, size * i, 1)
     if size > 1:
@@ -71,6 +71,8 @@ def _strike_some(
         i, later = turn(order, k), turn(order, min(k + AHEAD, last - 1))
         _bring(spheres, later, SPHERE_SIZE)
         _bring(movements, later, VECTOR_SIZE)
+        _bring(struck, later, 1)
+        _bring(polygons, later, 1)
         x, y, z = _vector(spheres, i)
         mx, my, mz = _vector(movements, i)
         r = f32(spheres[i, RADIUS])
@@ -107,6 +109,7 @@ def _step_some_down(
         _bring(centers, later, VECTOR_SIZE)
         _bring(allowances, later, 1)
         _bring(interps, later, 1)
+        _bring(polygons, later, 1)
         x, y, z = _vector(spheres, i)
         r = f32(spheres[i, RADIUS])
         mx, my, mz = _vector(movements, i)
@@ -134,9 +137,9 @@ def strike_many(
 ) -> None:
     """Strike with spheres that are taken from a share."""
     own = join(share)
+    put_in_order(SPHERES, spheres, order, share)
     for k in range(share[SHARE_LANES]):
         lane = lane_after(share, own, k)
-        order_lane(SPHERES, spheres, order, share, lane)
         first, last = take(share, lane)
         while first < last:
             _strike_some(wf, wi, s, root, spheres, movements, struck, polygons, order, first, last)
@@ -162,9 +165,9 @@ def step_down_many(
 ) -> None:
     """Step down with spheres that are taken from a share."""
     own = join(share)
+    put_in_order(SPHERES, spheres, order, share)
     for k in range(share[SHARE_LANES]):
         lane = lane_after(share, own, k)
-        order_lane(SPHERES, spheres, order, share, lane)
         first, last = take(share, lane)
         while first < last:
             _step_some_down(

@@ -27,8 +27,9 @@ from engine import (
     update_many,
 )
 from engine import layout as of
+from engine.coherence import order_for
 from engine.constants import ACTIVE_TS, CONTACT_TS, FLOOR_Z, ON_WALKABLE_TS
-from engine.kernels.order import SMALLEST
+from engine.kernels.order import BUCKETS, SMALLEST
 from engine.probes import count_reordered
 from engine.query import move_rows
 from engine.tracing import run_by
@@ -205,10 +206,16 @@ def test_counting_ends_with_its_block() -> None:
 
 
 @pytest.mark.parametrize("threads", [1, 2])
-def test_each_thread_orders_its_own_part(threads: int) -> None:
-    """In a batch that is just large enough, and in one that is one query short of it."""
-    most = int(SMALLEST) * threads
-    for count, expected in ((most, most), (most - 1, 0)):
+def test_all_threads_have_one_order(threads: int) -> None:
+    """In a batch that is just large enough for one, and in one that is one query short of it."""
+    for count, expected in ((SMALLEST, SMALLEST), (SMALLEST - 1, 0)):
         with count_reordered() as reordered:
             strike(slice(count), threads=threads)
         assert reordered.queries == expected
+
+
+def test_large_batches_are_sorted_in_parts() -> None:
+    """By as many threads as there are, but not in so many parts that to add up their counts is the most."""
+    sizes = {(31_999, 2): 1, (32_000, 2): 2, (100_000, 1): 1, (100_000, 2): 2, (100_000, 9): 4}
+    for (count, threads), parts in sizes.items():
+        assert len(order_for(count, threads, coherent=True)) == 2 * count + parts * BUCKETS

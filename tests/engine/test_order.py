@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from concurrent.futures import ThreadPoolExecutor
 from threading import Thread
 from time import sleep
 from typing import TYPE_CHECKING
@@ -16,8 +17,19 @@ from engine import layout as of
 from engine.body_layout import BODY_DTYPE
 from engine.coherence import AS_ASKED, order_of
 from engine.constants import ACTIVE_TS
-from engine.kernels.order import BODIES, BUCKETS, CALLS, MOVES, SMALLEST, SPHERES, order_all
-from engine.kernels.sharing import LANE_BEGUN, LANE_INTS, LANE_READY, SHARE_DONE, SHARE_REORDERED
+from engine.kernels.order import (
+    BODIES,
+    BUCKETS,
+    CALLS,
+    DECIDE,
+    MOVES,
+    PUT,
+    SMALLEST,
+    SPHERES,
+    TALLY,
+    order_all,
+)
+from engine.kernels.sharing import SHARE_DONE, SHARE_REORDERED, SHARE_STAGES, STAGE_DONE, STAGE_INTS
 from engine.kernels.tree_calls import strike_many
 from engine.threads import new_share
 
@@ -30,11 +42,12 @@ EAST = CELL + 0x01000000
 """A cell of the block to the east of the usual one."""
 
 
-def order_at(kind: int, rows: Array) -> tuple[Order, Order]:
-    """Return the order of rows, and each row's bucket."""
-    order, own = np.empty((2, len(rows)), dtype=np.int32)
-    assert order_all(kind, rows, order, own, np.empty(int(BUCKETS), dtype=np.int32)) == len(rows)
-    return order, own
+def order_at(kind: int, rows: Array, parts: int = 1) -> tuple[Order, Order]:
+    """Return the order of rows, sorted in so many parts, and each row's bucket."""
+    order, share = np.empty(2 * len(rows) + parts * int(BUCKETS), dtype=np.int32), new_share(len(rows))
+    order_all(kind, rows, order, share)
+    assert share[SHARE_REORDERED] == len(rows)
+    return order[: len(rows)], order[len(rows) : 2 * len(rows)]
 
 
 def spheres_within(side: float, count: int = COUNT) -> Array:
@@ -155,40 +168,70 @@ def strike_all(order: Order, share: Ints) -> None:
     strike_many(world.floats, world.ints, world.new_row(), world.tree_of(0), *arrays, order, share)
 
 
+@pytest.mark.parametrize("parts", [2, 3, 4])
+def test_in_how_many_parts_it_is_sorted_no_order_tells(parts: int) -> None:
+    """Rows of a bucket are in the order in which they came, also where parts meet."""
+    spheres = spheres_within(60.0)
+    together, alone = order_at(SPHERES, spheres, parts), order_at(SPHERES, spheres)
+    assert np.array_equal(together, alone)
+
+
 @pytest.mark.parametrize("lanes", [1, 2])
-def test_each_lane_has_an_order_of_its_own(lanes: int) -> None:
-    """Made by who comes to it first: of the rows that lie in it, as if there were no others."""
-    order = np.empty(2 * COUNT + lanes * int(BUCKETS), dtype=np.int32)
-    share = new_share(COUNT, lanes)
+def test_all_lanes_have_one_order(lanes: int) -> None:
+    """Each thread begins in another place of it, as the buckets lie, not as the rows do."""
+    order, share = np.empty(2 * COUNT + lanes * int(BUCKETS), dtype=np.int32), new_share(COUNT, lanes)
     strike_all(order, share)
-    size = COUNT // lanes
-    for first in range(0, COUNT, size):
-        expected = order_at(SPHERES, spheres_within(60.0)[first : first + size])[0] + first
-        assert order[first : first + size].tolist() == expected.tolist()
+    assert order[:COUNT].tolist() == order_at(SPHERES, spheres_within(60.0))[0].tolist()
     assert (share[SHARE_REORDERED], share[SHARE_DONE]) == (COUNT, COUNT)
 
 
-def test_a_lane_that_is_ready_is_left_as_it_is() -> None:
-    """Its order is not made a second time."""
-    order = np.zeros(2 * COUNT + int(BUCKETS), dtype=np.int32)
+@pytest.mark.parametrize("threads", [2, 3, 5])
+def test_threads_sort_together(threads: int) -> None:
+    """Each part is somebody's, once, and all have the same order when they return."""
+    spheres, alone = spheres_within(60.0), order_at(SPHERES, spheres_within(60.0))[0]
+    for _ in range(20):
+        order, share = np.empty(2 * COUNT + 3 * int(BUCKETS), dtype=np.int32), new_share(COUNT)
+
+        def sort(order: Order = order, share: Ints = share) -> bool:
+            order_all(SPHERES, spheres, order, share)
+            return np.array_equal(order[:COUNT], alone)
+
+        with ThreadPoolExecutor(threads) as others:
+            assert all(found.result() for found in [others.submit(sort) for _ in range(threads)])
+
+
+def done_by_others(share: Ints, stage: int, taken: int, done: int) -> None:
+    """Note that other threads have taken so many parts of a stage, and that so many are done."""
+    counters = int(SHARE_STAGES) + int(STAGE_INTS) * stage
+    share[counters], share[counters + STAGE_DONE] = taken, done
+
+
+def test_who_comes_late_leaves_the_order_as_it_is() -> None:
+    """It is not made a second time."""
+    order, share = np.zeros(2 * COUNT + int(BUCKETS), dtype=np.int32), new_share(COUNT)
     order[:COUNT] = np.arange(COUNT)[::-1]
-    share = new_share(COUNT)
-    share[LANE_INTS + LANE_BEGUN] = share[LANE_INTS + LANE_READY] = 1
+    share[SHARE_REORDERED] = COUNT
+    for stage in range(DECIDE, PUT + 1):
+        done_by_others(share, stage, 1, 1)
     strike_all(order, share)
     assert order[:COUNT].tolist() == list(range(COUNT))[::-1]
-    assert (share[SHARE_REORDERED], share[SHARE_DONE]) == (0, COUNT)
+    assert share[SHARE_DONE] == COUNT
 
 
-def test_a_lane_that_is_not_ready_is_waited_for() -> None:
-    """No row of it is taken before."""
-    order = np.arange(2 * COUNT + int(BUCKETS), dtype=np.int32)
-    share = new_share(COUNT)
-    share[LANE_INTS + LANE_BEGUN] = 1
+@pytest.mark.parametrize("stage", [DECIDE, TALLY, PUT])
+def test_a_part_that_is_not_done_is_waited_for(stage: int) -> None:
+    """No row is taken before, since it may be the next in order."""
+    order, share = np.zeros(2 * COUNT + int(BUCKETS), dtype=np.int32), new_share(COUNT)
+    order[:COUNT] = np.arange(COUNT)
+    for before in range(stage):
+        done_by_others(share, before, 1, 1)
+    share[SHARE_REORDERED] = COUNT if stage > DECIDE else 0
+    done_by_others(share, stage, 1, 0)
     thread = Thread(target=strike_all, args=(order, share))
     thread.start()
-    while share[LANE_INTS + LANE_BEGUN] == 1 and thread.is_alive():
+    while share[SHARE_STAGES + STAGE_INTS * stage] == 1 and thread.is_alive():
         sleep(0)
     assert share[SHARE_DONE] == 0
-    share[LANE_INTS + LANE_READY] = 1
+    share[SHARE_STAGES + STAGE_INTS * stage + STAGE_DONE] = 1
     thread.join()
     assert share[SHARE_DONE] == COUNT
