@@ -14,7 +14,7 @@ from engine.kernels.bsp_walkable import find_walkable, hits_walkable
 from engine.kernels.collision_info import set_contact_plane
 from engine.kernels.compile import inlined, kernel
 from engine.kernels.frame import rotate_x_last
-from engine.kernels.lattice import nothing_near
+from engine.kernels.lattice import no_ground_near, nothing_near
 from engine.kernels.path import add_offset_to_check_pos, entered_sphere, set_walkable
 from engine.kernels.plane import plane_localtoglobal
 from engine.kernels.position import position_localtoglobalvec
@@ -110,6 +110,8 @@ def step_sphere_down(wf: Array, wi: Ints, s: Array, root: int, scale: float) -> 
     x, y, z = load(s, LOCALSPACE_SPHERE)
     r = s[LOCALSPACE_SPHERE + RADIUS]
     ux, uy, uz = load(s, LOCALSPACE_Z)
+    if no_ground_near(wf, wi, s, root, x, y, z, r, ux, uy, uz):
+        return OK
     poly, vx, vy, vz = find_walkable(wf, wi, s, root, x, y, z, r, mx, my, mz, ux, uy, uz)
     if poly == NO_POLYGON:
         return OK
@@ -142,6 +144,8 @@ def find_landing(
     x, y, z = load(s, LOCALSPACE_SPHERE)
     r = s[LOCALSPACE_SPHERE + RADIUS]
     ux, uy, uz = load(s, LOCALSPACE_Z)
+    if no_ground_near(wf, wi, s, root, x, y, z, r, ux, uy, uz):
+        return OK
     poly, vx, vy, vz = find_walkable(wf, wi, s, root, x, y, z, r, mx, my, mz, ux, uy, uz)
     if poly == NO_POLYGON:
         return OK

@@ -14,7 +14,7 @@ from engine.constants import LATTICE_REACH
 from engine.kernels.compile import inlined, kernel
 from engine.kernels.indexing import unsigned
 from engine.kernels.plan import allows
-from engine.kernels.polygon import polygon_hits_sphere_slow_but_sure
+from engine.kernels.polygon import polygon_hits_sphere_slow_but_sure, polygon_walkable_hits_sphere
 from engine.kernels.polygon_edges import HIT
 from engine.layout import (
     CROWDED,
@@ -31,6 +31,7 @@ from engine.layout import (
     PLAN_WALKS,
     POLYGONS_TESTED,
     SKIPPED_WALKS,
+    WALKABLE_ALLOWANCE,
     WORD_BITS,
     WORD_COUNT_SHIFT,
     WORD_LIST_SHIFT,
@@ -85,6 +86,34 @@ def _word_at(wf: Array, wi: Ints, root: int, x: float, y: float, z: float) -> in
     return half(wi, block, within(a, b, c))
 
 
+@inlined
+def _what_is_near(
+    wf: Array, wi: Ints, s: Array, root: int, x: float, y: float, z: float, r: float
+) -> tuple[int, int, int]:
+    """Return the word of a sphere's cube, and where in the lists its polygons begin, and end.
+
+    All that they leave out of the tree's polygons is BEYOND the sphere, or MISSes it. The word is that of a
+    point in no cube if nothing is known.
+    """
+    if not 0.0 <= r <= LATTICE_REACH or not allows(s, PLAN_WALKS):
+        return _UNKNOWN, 0, 0
+    word = _word_at(wf, wi, root, x, y, z)
+    first = word >> WORD_LIST_SHIFT
+    return word, first, first + (word >> WORD_COUNT_SHIFT & CROWDED)
+
+
+@inlined
+def _is_unknown(word: int) -> bool:
+    """Say whether a cube lists nothing because there is too much."""
+    return word >> WORD_COUNT_SHIFT & CROWDED == CROWDED
+
+
+@inlined
+def _listed(wi: Ints, root: int, i: int) -> int:
+    """Return the i-th polygon of a tree's lists."""
+    return half(wi, wi[unsigned(NODE_INTS * (root + GATE) + LATTICE_LISTS)], i)
+
+
 @kernel
 def nothing_near(
     wf: Array, wi: Ints, s: Array, root: int, x: float, y: float, z: float, r: float, center_check: int
@@ -93,29 +122,55 @@ def nothing_near(
 
     `center_check`: whether a solid leaf counts that holds the centre, as of `sphere_intersects_solid`.
 
-    Of all polygons of the tree, those that the centre's cube does not list are BEYOND every sphere of up to
-    `LATTICE_REACH` with its centre there, or it MISSes them. Those that it lists are asked, as a walk asks
-    them. If none is HIT then, no leaf that a walk comes to has one, whichever those are; it would end with
-    the polygon that it began with, and with no answer but that of a solid leaf. Whether there may be one,
-    the cube says, too.
+    The polygons that the centre's cube lists are asked as a walk asks them. If none is HIT, no leaf that a
+    walk comes to has one, whichever those are; it would end with the polygon that it began with, and with no
+    answer but that of a solid leaf. Whether there may be one, the cube says, too.
 
     A walk may leave a point of contact, too, which a transition never reads (03, 16), and counters of work.
 
     retail: BSPNODE::sphere_intersects_poly 0x0053CA30, SP-4...SP-6;
     BSPNODE::sphere_intersects_solid 0x0053CAF0, SO-6...SO-8
     """
-    if not 0.0 <= r <= LATTICE_REACH or not allows(s, PLAN_WALKS):
+    word, first, end = _what_is_near(wf, wi, s, root, x, y, z, r)
+    if _is_unknown(word) or (word & WORD_SOLID and center_check != 0):
         return False
-    word = _word_at(wf, wi, root, x, y, z)
-    count = (word >> WORD_COUNT_SHIFT) & CROWDED
-    if count == CROWDED or (word & WORD_SOLID and center_check != 0):
-        return False
-    lists = wi[unsigned(NODE_INTS * (root + GATE) + LATTICE_LISTS)]
-    first = word >> WORD_LIST_SHIFT
-    s[POLYGONS_TESTED] += count
-    for i in range(first, first + count):
-        code, _, _, _ = polygon_hits_sphere_slow_but_sure(wf, half(wi, lists, i), x, y, z, r)
+    s[POLYGONS_TESTED] += end - first
+    for i in range(first, end):
+        code, _, _, _ = polygon_hits_sphere_slow_but_sure(wf, _listed(wi, root, i), x, y, z, r)
         if code == HIT:
+            return False
+    s[SKIPPED_WALKS] += 1.0
+    return True
+
+
+@kernel
+def no_ground_near(
+    wf: Array,
+    wi: Ints,
+    s: Array,
+    root: int,
+    x: float,
+    y: float,
+    z: float,
+    r: float,
+    ux: float,
+    uy: float,
+    uz: float,
+) -> bool:
+    """Say whether `find_walkable` is certain to find nothing to put a sphere on.
+
+    It moves the sphere for the first time on to a polygon that is flat enough and HIT where the sphere is at
+    first. If none of those that the cube lists is, there is no such polygon.
+
+    retail: BSPNODE::find_walkable 0x0053CC80, FW-4, FW-5
+    """
+    word, first, end = _what_is_near(wf, wi, s, root, x, y, z, r)
+    if _is_unknown(word):
+        return False
+    allowance = s[WALKABLE_ALLOWANCE]
+    s[POLYGONS_TESTED] += end - first
+    for i in range(first, end):
+        if polygon_walkable_hits_sphere(wf, _listed(wi, root, i), x, y, z, r, ux, uy, uz, allowance):
             return False
     s[SKIPPED_WALKS] += 1.0
     return True

@@ -15,9 +15,10 @@ from conformance.bench.scenes import make_scene
 from engine import Cell, Leaf, Node, Plan, Pose, Shape, Stage, World
 from engine import layout as at
 from engine.compiling import lattice
-from engine.constants import LATTICE_REACH
+from engine.constants import FLOOR_Z, LATTICE_REACH
 from engine.kernels.bsp_poly import sphere_intersects_poly, sphere_intersects_solid
-from engine.kernels.lattice import nothing_near
+from engine.kernels.bsp_walkable import find_walkable
+from engine.kernels.lattice import no_ground_near, nothing_near
 from engine.kernels.polygon import polygon_hits_sphere_slow_but_sure
 from engine.kernels.polygon_edges import HIT
 from engine.tracing_interpreter import Interpreter
@@ -29,6 +30,7 @@ if TYPE_CHECKING:
 
 INTERPRETER = Interpreter({})
 LOOK_UP: Any = INTERPRETER.function(nothing_near)
+NO_GROUND: Any = INTERPRETER.function(no_ground_near)
 WALKS = Plan(Stage.WALKS)
 ROOM = make_scene("room").world
 FLOOR = world_of(floor_and_wall())
@@ -43,6 +45,16 @@ def is_clear(
     clear = bool(LOOK_UP(world.floats, world.ints, row, world.tree_of(0), *numbers, center_check))
     assert row[at.SKIPPED_WALKS] == clear
     return clear
+
+
+def has_no_ground(world: World, sphere: tuple[float, ...], up: tuple[float, ...], allowance: float) -> bool:
+    """Say whether the lattice of a world's first cell knows that there is nothing to stand on."""
+    numbers = (np.float64(value) for value in (*sphere, *up))
+    row = world.new_row(plan=WALKS)
+    row[at.WALKABLE_ALLOWANCE] = allowance
+    none = bool(NO_GROUND(world.floats, world.ints, row, world.tree_of(0), *numbers))
+    assert row[at.SKIPPED_WALKS] == none
+    return none
 
 
 def gate_of(world: World) -> tuple[Array, Ints]:
@@ -110,6 +122,52 @@ def test_nothing_is_known_if_the_plan_says_so() -> None:
     """Retail's own way, walk by walk."""
     assert not is_clear(FLOOR, -1.5, 0.0, 1.5, R, plan=Plan.none())
     assert not is_clear(FLOOR, -1.5, 0.0, 1.5, R, plan=Plan(Plan().skip & ~Stage.WALKS))
+
+
+@pytest.mark.parametrize(
+    ("sphere", "up", "allowance", "none"),
+    [
+        ((-1.5, 0.0, 0.6, R), (0.0, 0.0, 1.0), FLOOR_Z, True),
+        ((-1.5, 0.0, 0.3, R), (0.0, 0.0, 1.0), FLOOR_Z, False),
+        ((0.9, 0.0, 1.5, R), (0.0, 0.0, 1.0), FLOOR_Z, True),
+        ((0.9, 0.0, 1.5, R), (-1.0, 0.0, 0.0), FLOOR_Z, False),
+        ((0.9, 0.0, 1.5, R), (0.0, 0.0, 1.0), -0.5, False),
+        ((-1.5, 0.0, 0.6, 1.1 * LATTICE_REACH), (0.0, 0.0, 1.0), FLOOR_Z, False),
+        ((-1.5, 0.0, 90.0, R), (0.0, 0.0, 1.0), FLOOR_Z, False),
+    ],
+    ids=[
+        "above the floor",
+        "in the floor",
+        "in the wall",
+        "in the wall, which is up",
+        "in the wall, if that will do",
+        "a larger sphere",
+        "outside of the box",
+    ],
+)
+def test_ground(sphere: tuple[float, ...], up: tuple[float, ...], allowance: float, none: bool) -> None:
+    """What is touched and flat enough is ground, by whatever the question calls flat."""
+    assert has_no_ground(FLOOR, sphere, up, allowance) == none
+
+
+@settings(deadline=None, max_examples=200)
+@given(
+    st.tuples(st.floats(0.1, 0.9), st.floats(0.1, 0.9), st.floats(0.1, 0.9)),
+    st.sampled_from([0.05, 0.25, 0.48]),
+    st.sampled_from([FLOOR_Z, 0.0, -1.0]),
+)
+def test_no_ground_is_missed(where: tuple[float, float, float], r: float, allowance: float) -> None:
+    """In a furnished room: where none is known to be, the walk puts the sphere on nothing."""
+    low, high = ROOM.shapes[0].bounds.reshape(2, 3)
+    center = np.float32(low + np.array(where) * (high - low)).astype(np.float64)
+    if has_no_ground(ROOM, (*center, r), (0.0, 0.0, 1.0), allowance):
+        row = ROOM.new_row()
+        row[at.WALKABLE_ALLOWANCE], row[at.WALK_INTERP] = allowance, 1.0
+        sphere = *center, r
+        way_and_up = 0.0, 0.0, -0.5, 0.0, 0.0, 1.0
+        found = find_walkable(ROOM.floats, ROOM.ints, row, ROOM.tree_of(0), *sphere, *way_and_up)
+        assert found == (at.NO_POLYGON, *center)
+        assert row[at.WALK_INTERP] == 1.0
 
 
 def test_a_centre_in_solid_matter_that_touches_no_polygon() -> None:
