@@ -22,7 +22,7 @@ from numba.core.caching import (
 from numba.core.registry import CPUDispatcher
 
 from engine.collector import without_collector
-from engine.kernels.linking import KernelCompiler
+from engine.kernels.compiler import KernelCompiler
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -93,9 +93,17 @@ class Kernel(CPUDispatcher):
         super().__init__(function, targetoptions=targets, pipeline_class=KernelCompiler)
 
     def compile(self, sig: Any) -> Any:
-        """Compile for types, unless that is done: each call in another kernel asks for it."""
-        done: Any = self.overloads.get(sig) if isinstance(sig, tuple) else None
-        return super().compile(sig) if done is None else done.entry_point
+        """Compile for types, unless that is done: each call in another kernel asks for it.
+
+        It is the entry's compilation that is timed and locked, and whose result goes to the cache.
+        """
+        done: Any = self.overloads.get(sig)
+        if done is None:
+            compiler: Any = self._compiler  # type: ignore[attr-defined] # Numba's, of the inherited part
+            with self._compiling_counter:
+                done = compiler.compile(sig, None)
+                self.add_overload(done)
+        return done.entry_point
 
     def __call__(self, *_args: Any, **_options: Any) -> Any:
         """Refuse: there is nothing to run by itself."""

@@ -9,19 +9,12 @@ internal to it, so that what a call passes and doesn't need is dropped.
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any, Final
+from typing import TYPE_CHECKING, Any
 
 from numba.core.codegen import JITCodeLibrary
-from numba.core.compiler import Compiler, Flags
-from numba.core.compiler_machinery import LoweringPass, register_pass
-from numba.core.typed_passes import AnnotateTypes, NopythonRewrites
-from numba.core.untyped_passes import InlineClosureLikes
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
-
-_UNNEEDED: Final = (InlineClosureLikes, NopythonRewrites)
-"""Passes that find nothing to do: kernels define no functions, and compute with numbers, not with arrays."""
 
 
 class _NoEnvironment:
@@ -35,6 +28,9 @@ class KernelLibrary(JITCodeLibrary):
     """The code of one kernel, without what it calls; only ever linked into others."""
 
     codegen = _NoEnvironment()
+
+    def _optimize_functions(self, ll_module: Any) -> None:
+        _tidy(self, ll_module)
 
     def finalize(self) -> None:
         """Be ready for linking, which is all that is asked of it."""
@@ -53,6 +49,9 @@ class KernelLibrary(JITCodeLibrary):
 class EntryLibrary(JITCodeLibrary):
     """The code of a kernel that Python calls, and of all that it calls."""
 
+    def _optimize_functions(self, ll_module: Any) -> None:
+        _tidy(self, ll_module)
+
     def finalize(self) -> None:
         """Link all kernels below, and optimise them as one program."""
         self._raise_if_finalized()
@@ -65,6 +64,15 @@ class EntryLibrary(JITCodeLibrary):
         self._optimize_final_module()
         self._final_module.verify()
         self._finalize_final_module()
+
+
+def _tidy(library: JITCodeLibrary, module: Any) -> None:
+    """Run LLVM's passes over each function by itself: as Numba does, but on those only that have a body."""
+    module.data_layout = library._codegen._data_layout  # noqa: SLF001
+    passes, builder = library._codegen._function_pass_manager()  # noqa: SLF001
+    for function in module.functions:
+        if not function.is_declaration:
+            passes.run(function, builder)
 
 
 def _modules_below(library: Any) -> Iterator[Any]:
@@ -81,54 +89,3 @@ def _modules_below(library: Any) -> Iterator[Any]:
             yield needed.own_module()
         else:
             yield needed._get_module_for_linking()  # noqa: SLF001
-
-
-@register_pass(mutates_CFG=True, analysis_only=False)
-class _OwnLibrary(LoweringPass):
-    """Chooses the library that the following pass puts the code into."""
-
-    _name = "kernel library"
-
-    def __init__(self) -> None:
-        LoweringPass.__init__(self)
-
-    def run_pass(self, state: Any) -> bool:
-        """Give the kernel a library of its own kind."""
-        kind = KernelLibrary if state.flags.no_cpython_wrapper else EntryLibrary
-        state.library = kind(state.targetctx.codegen(), state.func_id.func_qualname)
-        state.library.enable_object_caching()
-        return True
-
-
-class KernelFlags(Flags):
-    """Numba's options of a compilation, of which only those that are set are compared.
-
-    Types are looked up by them some hundred thousand times; to compare the defaults of all others as well
-    takes a tenth of the compilation.
-    """
-
-    __slots__ = ()
-    _HASH: Final = hash(Flags())
-
-    def __eq__(self, other: object) -> bool:
-        return self._values == other._values if isinstance(other, KernelFlags) else super().__eq__(other)
-
-    def __hash__(self) -> int:
-        return self._HASH
-
-
-class KernelCompiler(Compiler):
-    """Numba's compiler, with these libraries."""
-
-    def __init__(
-        self, typing: Any, target: Any, library: Any, args: Any, result: Any, flags: Any, local: Any
-    ) -> None:
-        super().__init__(typing, target, library, args, result, KernelFlags(flags), local)
-
-    def define_pipelines(self) -> list[Any]:
-        """Choose the library before code is generated; leave out what kernels have no need of."""
-        (pipeline,) = super().define_pipelines()
-        pipeline.passes = [step for step in pipeline.passes if step[0] not in _UNNEEDED]
-        pipeline.add_pass_after(_OwnLibrary, AnnotateTypes)
-        pipeline.finalize()
-        return [pipeline]
