@@ -12,7 +12,7 @@ from conformance.bench.oracle_jobs import oracle_maker
 from conformance.bench.peers import MODULES, Agreement, peer_maker
 from conformance.bench.precision import measure_precision
 from conformance.bench.report import Curve, Ratio
-from conformance.bench.settings import LARGE, SMALL
+from conformance.bench.settings import LARGE, SMALL, THREADS
 from conformance.bench.spots import Surfaces
 from conformance.bench.timing import accept, comparison, demand_equal, sample_of, take_turns
 
@@ -96,11 +96,20 @@ class Contest:
             self._add(op, "oracle", times, theirs, batch=batch)
 
     def beside_native(self, op: str, native: Native) -> None:
-        """Measure a hot kernel of the engine beside the yardstick, given queries as drawn, and sorted."""
-        makers = [engine_maker(op, LARGE), native.maker(op), native.sorted_maker(op)]
-        ours, as_drawn, in_order = self._turns(op, makers, self.settings.fast_rounds)
+        """Measure a hot kernel of the engine beside the yardstick, given queries as drawn, and sorted.
+
+        The yardstick is measured on several threads as well, beside itself: for what the machine gives there.
+        """
+        makers = [
+            engine_maker(op, LARGE),
+            native.maker(op),
+            native.sorted_maker(op),
+            native.shared_maker(op, THREADS),
+        ]
+        ours, as_drawn, in_order, shared = self._turns(op, makers, self.settings.fast_rounds)
         self._add(op, "native", ours, as_drawn)
         self._add(op, "native, sorted", ours, in_order)
+        self._add(op, "native, one thread", shared, in_order, threads=THREADS, note="the yardstick itself")
 
     def beside_itself(self, op: str, batch: int, variants: Sequence[Variant]) -> None:
         """Measure the engine, as it is without a word, beside itself otherwise."""

@@ -1,10 +1,11 @@
-"""The yardstick at work: all queries in one call, on one thread."""
+"""The yardstick at work: all queries in one call, or in one call on each of several threads."""
 
 from __future__ import annotations
 
 import shutil
 import tempfile
 import weakref
+from concurrent.futures import ThreadPoolExecutor
 from dataclasses import replace
 from functools import partial
 from pathlib import Path
@@ -18,6 +19,7 @@ from conformance.bench.kept import Kept
 from conformance.bench.native.compiler import compile_yardstick, find_compiler
 from conformance.bench.native.library import Yardstick
 from conformance.bench.timing import Answer, Job
+from conformance.bench.work import batches
 from engine.coherence import order_of
 from engine.kernels.order import SPHERES
 
@@ -64,6 +66,14 @@ class Native:
         """
         return partial(_sorted_job, self.maker(op))
 
+    def shared_maker(self, op: str, threads: int) -> Maker:
+        """Return it as `sorted_maker` does, on several threads, each of which has an equal part of the work.
+
+        What it then gains is what the machine gives to who shares nothing but the tree.
+        """
+        makers = [self.sorted_maker(op) for _ in range(threads)]
+        return partial(_shared_job, makers, ThreadPoolExecutor(threads - 1))
+
     def _tree(self, scene: BenchScene) -> NativeTree:
         tree = self._trees.get(scene)
         if tree is None:
@@ -100,6 +110,20 @@ def _sorted_job(maker: Maker, work: KernelWork) -> Job:
         return answers
 
     return replace(job, answer=answer)
+
+
+def _shared_job(makers: Sequence[Maker], others: ThreadPoolExecutor, work: KernelWork) -> Job:
+    """Make a job of equal parts of some work, of which the calling thread does the first."""
+    parts = batches(len(work), -(-len(work) // len(makers)))
+    jobs = [maker(work.part(*part)) for maker, part in zip(makers, parts, strict=True)]
+
+    def run() -> None:
+        at_work = [others.submit(job.run) for job in jobs[1:]]
+        jobs[0].run()
+        for one in at_work:
+            one.result()
+
+    return Job(run, lambda done: np.concatenate([job.answer(done) for job in jobs]), len(work))
 
 
 def _columns(arrays: Sequence[Any]) -> Answer:

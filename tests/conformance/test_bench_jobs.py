@@ -17,6 +17,7 @@ from conformance.bench.native.compiler import (
     compile_yardstick,
     find_compiler,
 )
+from conformance.bench.native.library import NativeTree
 from conformance.bench.native_jobs import Native
 from conformance.bench.oracle_jobs import MAKERS, oracle_maker
 from conformance.bench.peers import EXPLAINED, MODULES, distance_to, peer_maker, triangles, unexplained
@@ -98,6 +99,28 @@ def test_sorted_queries_have_the_same_answers(op: str) -> None:
     assert sorted(order.tolist()) == list(range(2000))
     assert (np.diff(order) != 1).any()
     demand_equal(work, [answer(yardstick().maker(op), work), answer(yardstick().sorted_maker(op), work)])
+
+
+@pytest.mark.parametrize("op", [ops.STRIKE, ops.STEP_DOWN])
+@pytest.mark.parametrize(("count", "threads"), [(2001, 2), (20, 3)])
+def test_threads_of_the_yardstick_share_its_queries(op: str, count: int, threads: int) -> None:
+    """Each answers a part, also where the parts are not equal, and none is left out."""
+    work = contest().work(op, count)
+    shared = yardstick().shared_maker(op, threads)
+    demand_equal(work, [answer(yardstick().maker(op), work), answer(shared, work), answer(shared, work)])
+
+
+def test_an_error_in_a_thread_of_the_yardstick_is_raised(monkeypatch: pytest.MonkeyPatch) -> None:
+    """A job that is broken off has no time."""
+    work = contest().work(ops.STRIKE, 20)
+    job = yardstick().shared_maker(ops.STRIKE, 2)(work)
+
+    def fail(*_arguments: Any) -> None:
+        raise OSError("broken off")
+
+    monkeypatch.setattr(NativeTree, "strike", fail)
+    with pytest.raises(OSError, match="broken off"):
+        job.run()
 
 
 def test_compiler_is_described() -> None:
