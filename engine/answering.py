@@ -59,7 +59,7 @@ def answer(
     """
     CHECK_WORLD(world, "world", QueryError)
     run = runnable(kernel)
-    order = order_for(count, threads, coherent=coherent)
+    order = order_for(count, coherent=coherent)
 
     def work(share: Ints) -> None:
         row = world.take_row(plan)

@@ -13,7 +13,7 @@ import numpy as np
 
 from engine.kernels import order as kernels
 from engine.kernels.sharing import SHARE_REORDERED
-from engine.threads import new_share, sharing
+from engine.threads import new_share
 from engine.tracing import is_recording
 
 if TYPE_CHECKING:
@@ -23,10 +23,6 @@ AS_ASKED: Final[Order] = np.empty(0, dtype=np.int32)
 """What stands for the order in which rows lie."""
 _SMALLEST: Final = int(kernels.SMALLEST)
 _BUCKETS: Final = int(kernels.BUCKETS)
-_PART: Final = 16_000
-"""Rows of a part of the sorting, at least: fewer are sorted before a thread that was asleep is awake."""
-_MOST_PARTS: Final = 4
-"""Parts of it: their counts of each bucket are added up by one thread while the others wait."""
 
 
 def order_of(kind: int, rows: Array) -> Order:
@@ -48,39 +44,28 @@ def order_of(kind: int, rows: Array) -> Order:
     """
     if len(rows) < _SMALLEST:
         return AS_ASKED
-    order, share = _room(len(rows), 1), new_share(len(rows))
+    order, share = _room(len(rows)), new_share(len(rows))
     kernels.order_all(kind, rows, order, share)
     return order[: len(rows)] if share[SHARE_REORDERED] else AS_ASKED
 
 
-def order_for(count: int, threads: int, *, coherent: bool) -> Order:
+def order_for(count: int, *, coherent: bool) -> Order:
     """Return room for the order of a batch, which is made while it is answered.
 
-    It is one for all threads, who sort large batches together, and each begins at another place of it: so the
-    next query is as near as if there were one thread, and each thread needs only its part of the world in its
-    caches. While writes are recorded the order is that in which rows lie: who reads the record reads it in
-    that order.
+    It is one for all threads, and each begins at another place of it: so the next query is as near as if
+    there were one thread, and each thread needs only its part of the world in its caches. While writes are
+    recorded the order is that in which rows lie: who reads the record reads it in that order.
 
     Parameters
     ----------
     count : int
         How many rows there are.
-    threads : int
-        How many share them.
     coherent : bool
         Whether there may be another order than that in which the rows lie.
-
-    Raises
-    ------
-    QueryError
-        If `threads` is not a number of threads.
     """
-    at_work = sharing(count, threads)
-    if not coherent or count < _SMALLEST or is_recording():
-        return AS_ASKED
-    return _room(count, min(at_work, _MOST_PARTS, max(count // _PART, 1)))
+    return AS_ASKED if not coherent or count < _SMALLEST or is_recording() else _room(count)
 
 
-def _room(count: int, parts: int) -> Order:
-    """Return room for the order of so many rows, sorted in so many parts."""
-    return np.empty(2 * count + parts * _BUCKETS, dtype=np.int32)
+def _room(count: int) -> Order:
+    """Return room for the order of so many rows, and for sorting them."""
+    return np.empty(2 * count + _BUCKETS, dtype=np.int32)

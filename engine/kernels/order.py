@@ -16,7 +16,7 @@ from engine.constants import ACTIVE_TS, BLOCK_EDGE, frozen
 from engine.kernels.ahead import bring_near
 from engine.kernels.compile import entry, inlined, kernel
 from engine.kernels.indexing import unsigned
-from engine.kernels.sharing import SHARE_REORDERED, end_part, take_part, wait_for
+from engine.kernels.sharing import SHARE_REORDERED, is_first, make_ready, wait_until_ready
 from engine.layout import (
     COLLISION_INFO,
     CONTACT_VALID,
@@ -42,8 +42,9 @@ BODIES: Final = frozen(3)
 
 ACROSS: Final = frozen(6)
 """Bits of a place along x, and along y."""
-UPWARDS: Final = frozen(2)
-"""Bits of a place along z: few, since what is asked about lies on few floors."""
+UPWARDS: Final = frozen(1)
+"""Bits of a place along z: one tells a floor from the next. With two, the first cache would not hold as many
+numbers as there are buckets."""
 BUCKETS: Final = frozen(1 << (2 * ACROSS + UPWARDS))
 """How many there are."""
 
@@ -68,15 +69,6 @@ EARLY: Final = frozen(12)
 _FAR: Final = 2.0**40
 """Metres, and a multiple of all periods of buckets: added to a number that is nearer it makes it positive, so
 that its whole part is the whole number below. What is farther, or no number, is at 0."""
-DECIDE: Final = frozen(0)
-"""Stages of sorting. The first: whether it pays; one part, that is one thread decides for all."""
-TALLY: Final = frozen(1)
-"""Each part finds the buckets of its rows, and counts them."""
-LAY_OUT: Final = frozen(2)
-"""One part says from the counts where the rows of each bucket, and of each part, begin."""
-PUT: Final = frozen(3)
-"""Each part puts its rows there."""
-STAGES: Final = frozen(4)
 _CONTACT_VALID: Final = frozen(Q_COLLISION_INFO - COLLISION_INFO + CONTACT_VALID)
 """Whether a query's mover stands on something."""
 
@@ -173,94 +165,64 @@ def _are_apart(kind: int, rows: Array, columns: Order) -> bool:
 
 
 @inlined
-def _decide(kind: int, rows: Array, order: Order, share: Ints) -> None:
-    """Note how many rows will be sorted: all of them, or none, which then stay as they lie."""
-    count = len(rows)
-    if count >= SMALLEST and _are_worth_it(kind, rows) and _are_apart(kind, rows, order[2 * count :]):
-        share[SHARE_REORDERED] = count
-    else:
-        for i in range(count):
-            order[unsigned(i)] = i
+def _pays(kind: int, rows: Array, buckets: Order) -> bool:
+    """Say whether it pays to sort the rows."""
+    return len(rows) >= SMALLEST and _are_worth_it(kind, rows) and _are_apart(kind, rows, buckets)
 
 
 @inlined
-def _tally(kind: int, rows: Array, first: int, last: int, own: Order, buckets: Order) -> None:
-    """Find the bucket of each of some rows, and how many are in each."""
+def _sort(kind: int, rows: Array, order: Order, own: Order, buckets: Order) -> None:
+    """Write the numbers of the rows by their buckets: a counting sort."""
     for b in range(BUCKETS):
         buckets[b] = 0
-    for i in range(first, last):
+    for i in range(len(rows)):
         _bring_place(kind, rows, i + EARLY)
         bucket = unsigned(_bucket_of(kind, rows[unsigned(i)]))
         own[unsigned(i)] = bucket
         buckets[bucket] += 1
-
-
-@inlined
-def _lay_out(buckets: Order) -> None:
-    """Replace all counts by places: a bucket behind the other, and in it a part's rows behind the other's."""
     place = 0
     for b in range(BUCKETS):
-        for at in range(b, len(buckets), BUCKETS):
-            count = buckets[unsigned(at)]
-            buckets[unsigned(at)] = place
-            place += count
-
-
-@inlined
-def _put(first: int, last: int, order: Order, own: Order, buckets: Order) -> None:
-    """Put the numbers of some rows where their buckets are."""
-    for i in range(first, last):
+        count = buckets[b]
+        buckets[b] = place
+        place += count
+    for i in range(len(rows)):
         bucket = unsigned(own[unsigned(i)])
         order[unsigned(buckets[bucket])] = i
         buckets[bucket] += 1
 
 
 @kernel
-def _do_part(kind: int, rows: Array, order: Order, share: Ints, stage: int, part: int, parts: int) -> None:
-    """Do a part of a stage; see `put_in_order`."""
-    count = len(rows)
-    own, buckets = order[count : 2 * count], order[2 * count :]
-    first, last = count * part // parts, count * (part + 1) // parts
-    mine = buckets[BUCKETS * part : BUCKETS * (part + 1)]
-    if stage == DECIDE:
-        _decide(kind, rows, order, share)
-    elif stage == TALLY:
-        _tally(kind, rows, first, last, own, mine)
-    elif stage == LAY_OUT:
-        _lay_out(buckets)
-    else:
-        _put(first, last, order, own, mine)
-
-
-@kernel
 def put_in_order(kind: int, rows: Array, order: Order, share: Ints) -> None:
     """Sort rows by their buckets, each bucket in the order in which its rows lie, if that pays.
 
-    It is a counting sort. All threads of a share call it, and each returns when all rows are in order: they
-    share the parts of every stage. A thread that comes late finds less to do, or nothing.
+    The first thread does it, mostly while the others wake up, and they wait until it has: it has the rows in
+    its cache. Two that share it read what the other has just written, and take longer than one does.
 
     Parameters
     ----------
     kind : int
         What rows they are: one of the numbers above.
     rows : ndarray, shape (n, size)
-    order : ndarray of int32, shape (0,) or (2 n + parts * BUCKETS,)
-        Takes the numbers of the rows. Behind them is room for each row's bucket, and for how many rows each
-        part has in each. Empty: they stay as they lie.
+    order : ndarray of int32, shape (0,) or (2 n + BUCKETS,)
+        Takes the numbers of the rows. Behind them is room for each row's bucket, and for how many rows are in
+        each. Empty: they stay as they lie.
     share : ndarray of int64
         Takes how many have been sorted, all of them or none: `SHARE_REORDERED`.
     """
-    most = max(len(order) - 2 * len(rows), 0) // BUCKETS
-    for stage in range(STAGES):
-        parts = most if stage in (TALLY, PUT) else min(most, 1)
-        part = take_part(share, stage)
-        while part < parts:
-            _do_part(kind, rows, order, share, stage, part, parts)
-            end_part(share, stage)
-            part = take_part(share, stage)
-        wait_for(share, stage, parts)
-        if share[SHARE_REORDERED] == 0:
-            return
+    if len(order) == 0:
+        return
+    if is_first(share):
+        count = len(rows)
+        own, buckets = order[count : 2 * count], order[2 * count :]
+        if _pays(kind, rows, buckets):
+            _sort(kind, rows, order, own, buckets)
+            share[SHARE_REORDERED] = count
+        else:
+            for i in range(count):
+                order[unsigned(i)] = i
+        make_ready(share)
+    else:
+        wait_until_ready(share)
 
 
 @entry

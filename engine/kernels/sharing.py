@@ -1,11 +1,10 @@
 """Many rows shared by threads: each begins with rows of its own, and then helps the others with theirs.
 
 Rows are cut into lanes, one for each thread, of rows that are answered one after the other: so each thread
-has its own part of space. Before the first is taken all may have to be put in order, in stages that threads
-do together. A thread takes the next few rows of its lane when it is done
-with the last, and when there are none left, those of the other lanes. What they share is an array of
-integers; rows are taken inside compiled code, without the interpreter's lock, in one step that no other
-thread can come between.
+has its own part of space. The first thread may have to put them in order before. A thread takes the next few
+rows of its lane when it is done with the last, and when there are none left, those of the other lanes. What
+they share is an array of integers; rows are taken inside compiled code, without the interpreter's lock, in
+one step that no other thread can come between.
 """
 
 from __future__ import annotations
@@ -31,11 +30,10 @@ SHARE_DONE: Final = frozen(3)
 """How many have been done with, answered or not: when it is all of them, nobody needs to be waited for."""
 SHARE_REORDERED: Final = frozen(4)
 """How many have been put in another order than they lie in (`engine.kernels.order`)."""
-SHARE_STAGES: Final = frozen(5)
-"""Where the counters of the first stage are (`take_part`)."""
-STAGE_INTS: Final = frozen(2)
-"""Counters of a stage: the parts of it that somebody has taken, and those that are done."""
-STAGE_DONE: Final = frozen(1)
+SHARE_SORTERS: Final = frozen(5)
+"""How many threads have asked whether to put them in order: the first does."""
+SHARE_READY: Final = frozen(6)
+"""1 when rows may be taken, if they are put in order before."""
 LANE_INTS: Final = frozen(16)
 """Integers of a lane, and of what is before the first: two cache lines, since they are fetched in pairs."""
 LANE_NEXT: Final = frozen(0)
@@ -86,27 +84,21 @@ def lane_after(share: Ints, own: int, k: int) -> int:
 
 
 @inlined
-def take_part(share: Ints, stage: int) -> int:
-    """Take a part of a stage, which is work that has to be done before any row may be taken.
-
-    Returns
-    -------
-    int
-        Which part; there is none left if there are not so many.
-    """
-    return add_to(share, SHARE_STAGES + STAGE_INTS * stage, 1)
+def is_first(share: Ints) -> bool:
+    """Say, once, that the thread is the first, and has to call `make_ready`."""
+    return add_to(share, SHARE_SORTERS, 1) == 0
 
 
 @inlined
-def end_part(share: Ints, stage: int) -> None:
-    """Note that a part of a stage is done; who has waited for it sees what the thread has written."""
-    add_to(share, SHARE_STAGES + STAGE_INTS * stage + STAGE_DONE, 1)
+def make_ready(share: Ints) -> None:
+    """Let those in that wait; they see what the thread has written."""
+    add_to(share, SHARE_READY, 1)
 
 
 @inlined
-def wait_for(share: Ints, stage: int, parts: int) -> None:
-    """Wait, awake, until all parts of a stage are done: less long than it takes to fall asleep."""
-    while add_to(share, SHARE_STAGES + STAGE_INTS * stage + STAGE_DONE, 0) < parts:
+def wait_until_ready(share: Ints) -> None:
+    """Wait, awake, until rows may be taken: hardly longer than it takes to fall asleep and be woken."""
+    while add_to(share, SHARE_READY, 0) == 0:
         pass
 
 

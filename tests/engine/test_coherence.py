@@ -27,9 +27,8 @@ from engine import (
     update_many,
 )
 from engine import layout as of
-from engine.coherence import order_for
 from engine.constants import ACTIVE_TS, CONTACT_TS, FLOOR_Z, ON_WALKABLE_TS
-from engine.kernels.order import BUCKETS, SMALLEST
+from engine.kernels.order import SMALLEST
 from engine.probes import count_reordered
 from engine.query import move_rows
 from engine.tracing import run_by
@@ -212,10 +211,3 @@ def test_all_threads_have_one_order(threads: int) -> None:
         with count_reordered() as reordered:
             strike(slice(count), threads=threads)
         assert reordered.queries == expected
-
-
-def test_large_batches_are_sorted_in_parts() -> None:
-    """By as many threads as there are, but not in so many parts that to add up their counts is the most."""
-    sizes = {(31_999, 2): 1, (32_000, 2): 2, (100_000, 1): 1, (100_000, 2): 2, (100_000, 9): 4}
-    for (count, threads), parts in sizes.items():
-        assert len(order_for(count, threads, coherent=True)) == 2 * count + parts * BUCKETS

@@ -21,15 +21,12 @@ from engine.kernels.order import (
     BODIES,
     BUCKETS,
     CALLS,
-    DECIDE,
     MOVES,
-    PUT,
     SMALLEST,
     SPHERES,
-    TALLY,
     order_all,
 )
-from engine.kernels.sharing import SHARE_DONE, SHARE_REORDERED, SHARE_STAGES, STAGE_DONE, STAGE_INTS
+from engine.kernels.sharing import SHARE_DONE, SHARE_READY, SHARE_REORDERED, SHARE_SORTERS
 from engine.kernels.tree_calls import strike_many
 from engine.threads import new_share
 
@@ -42,9 +39,9 @@ EAST = CELL + 0x01000000
 """A cell of the block to the east of the usual one."""
 
 
-def order_at(kind: int, rows: Array, parts: int = 1) -> tuple[Order, Order]:
-    """Return the order of rows, sorted in so many parts, and each row's bucket."""
-    order, share = np.empty(2 * len(rows) + parts * int(BUCKETS), dtype=np.int32), new_share(len(rows))
+def order_at(kind: int, rows: Array) -> tuple[Order, Order]:
+    """Return the order of rows, and each row's bucket."""
+    order, share = np.empty(2 * len(rows) + int(BUCKETS), dtype=np.int32), new_share(len(rows))
     order_all(kind, rows, order, share)
     assert share[SHARE_REORDERED] == len(rows)
     return order[: len(rows)], order[len(rows) : 2 * len(rows)]
@@ -168,29 +165,21 @@ def strike_all(order: Order, share: Ints) -> None:
     strike_many(world.floats, world.ints, world.new_row(), world.tree_of(0), *arrays, order, share)
 
 
-@pytest.mark.parametrize("parts", [2, 3, 4])
-def test_in_how_many_parts_it_is_sorted_no_order_tells(parts: int) -> None:
-    """Rows of a bucket are in the order in which they came, also where parts meet."""
-    spheres = spheres_within(60.0)
-    together, alone = order_at(SPHERES, spheres, parts), order_at(SPHERES, spheres)
-    assert np.array_equal(together, alone)
-
-
 @pytest.mark.parametrize("lanes", [1, 2])
 def test_all_lanes_have_one_order(lanes: int) -> None:
     """Each thread begins in another place of it, as the buckets lie, not as the rows do."""
-    order, share = np.empty(2 * COUNT + lanes * int(BUCKETS), dtype=np.int32), new_share(COUNT, lanes)
+    order, share = np.empty(2 * COUNT + int(BUCKETS), dtype=np.int32), new_share(COUNT, lanes)
     strike_all(order, share)
     assert order[:COUNT].tolist() == order_at(SPHERES, spheres_within(60.0))[0].tolist()
     assert (share[SHARE_REORDERED], share[SHARE_DONE]) == (COUNT, COUNT)
 
 
 @pytest.mark.parametrize("threads", [2, 3, 5])
-def test_threads_sort_together(threads: int) -> None:
-    """Each part is somebody's, once, and all have the same order when they return."""
+def test_one_thread_sorts_and_the_others_wait(threads: int) -> None:
+    """All have the same order when they return, and nobody has made it a second time."""
     spheres, alone = spheres_within(60.0), order_at(SPHERES, spheres_within(60.0))[0]
     for _ in range(20):
-        order, share = np.empty(2 * COUNT + 3 * int(BUCKETS), dtype=np.int32), new_share(COUNT)
+        order, share = np.zeros(2 * COUNT + int(BUCKETS), dtype=np.int32), new_share(COUNT)
 
         def sort(order: Order = order, share: Ints = share) -> bool:
             order_all(SPHERES, spheres, order, share)
@@ -198,40 +187,28 @@ def test_threads_sort_together(threads: int) -> None:
 
         with ThreadPoolExecutor(threads) as others:
             assert all(found.result() for found in [others.submit(sort) for _ in range(threads)])
-
-
-def done_by_others(share: Ints, stage: int, taken: int, done: int) -> None:
-    """Note that other threads have taken so many parts of a stage, and that so many are done."""
-    counters = int(SHARE_STAGES) + int(STAGE_INTS) * stage
-    share[counters], share[counters + STAGE_DONE] = taken, done
+        assert (share[SHARE_SORTERS], share[SHARE_READY]) == (threads, 1)
 
 
 def test_who_comes_late_leaves_the_order_as_it_is() -> None:
     """It is not made a second time."""
     order, share = np.zeros(2 * COUNT + int(BUCKETS), dtype=np.int32), new_share(COUNT)
     order[:COUNT] = np.arange(COUNT)[::-1]
-    share[SHARE_REORDERED] = COUNT
-    for stage in range(DECIDE, PUT + 1):
-        done_by_others(share, stage, 1, 1)
+    share[SHARE_SORTERS] = share[SHARE_READY] = 1
     strike_all(order, share)
     assert order[:COUNT].tolist() == list(range(COUNT))[::-1]
-    assert share[SHARE_DONE] == COUNT
+    assert (share[SHARE_REORDERED], share[SHARE_DONE]) == (0, COUNT)
 
 
-@pytest.mark.parametrize("stage", [DECIDE, TALLY, PUT])
-def test_a_part_that_is_not_done_is_waited_for(stage: int) -> None:
-    """No row is taken before, since it may be the next in order."""
-    order, share = np.zeros(2 * COUNT + int(BUCKETS), dtype=np.int32), new_share(COUNT)
-    order[:COUNT] = np.arange(COUNT)
-    for before in range(stage):
-        done_by_others(share, before, 1, 1)
-    share[SHARE_REORDERED] = COUNT if stage > DECIDE else 0
-    done_by_others(share, stage, 1, 0)
+def test_the_order_is_waited_for() -> None:
+    """No row is taken before."""
+    order, share = np.arange(2 * COUNT + int(BUCKETS), dtype=np.int32), new_share(COUNT)
+    share[SHARE_SORTERS] = 1
     thread = Thread(target=strike_all, args=(order, share))
     thread.start()
-    while share[SHARE_STAGES + STAGE_INTS * stage] == 1 and thread.is_alive():
+    while share[SHARE_SORTERS] == 1 and thread.is_alive():
         sleep(0)
     assert share[SHARE_DONE] == 0
-    share[SHARE_STAGES + STAGE_INTS * stage + STAGE_DONE] = 1
+    share[SHARE_READY] = 1
     thread.join()
     assert share[SHARE_DONE] == COUNT
