@@ -16,6 +16,7 @@ from engine.kernels.compile import inlined, kernel
 from engine.kernels.frame import rotate_x_last
 from engine.kernels.lattice import no_ground_near, nothing_near
 from engine.kernels.path import add_offset_to_check_pos, entered_sphere, set_walkable
+from engine.kernels.plan import allows
 from engine.kernels.plane import plane_localtoglobal
 from engine.kernels.position import position_localtoglobalvec
 from engine.kernels.rounding import f32
@@ -29,6 +30,7 @@ from engine.layout import (
     LOCALSPACE_Z,
     NO_POLYGON,
     NUM_SPHERE,
+    PLAN_WALKS,
     RADIUS,
     STEP_DOWN_AMT,
     WALK_INTERP,
@@ -56,7 +58,7 @@ def find_room(wf: Array, wi: Ints, s: Array, root: int) -> int:
     flag = center_check_flag(s)
     for i in range(max(int(s[NUM_SPHERE]), 1)):
         x, y, z, r = entered_sphere(s, i)
-        if nothing_near(wf, wi, s, root, x, y, z, r, flag):
+        if allows(s, PLAN_WALKS) and nothing_near(wf, wi, s, root, x, y, z, r, flag):
             continue
         if sphere_intersects_solid(wf, wi, s, root, x, y, z, r, flag):
             return COLLIDED
@@ -110,7 +112,7 @@ def step_sphere_down(wf: Array, wi: Ints, s: Array, root: int, scale: float) -> 
     x, y, z = load(s, LOCALSPACE_SPHERE)
     r = s[LOCALSPACE_SPHERE + RADIUS]
     ux, uy, uz = load(s, LOCALSPACE_Z)
-    if no_ground_near(wf, wi, s, root, x, y, z, r, ux, uy, uz):
+    if allows(s, PLAN_WALKS) and no_ground_near(wf, wi, s, root, x, y, z, r, ux, uy, uz):
         return OK
     poly, vx, vy, vz = find_walkable(wf, wi, s, root, x, y, z, r, mx, my, mz, ux, uy, uz)
     if poly == NO_POLYGON:
@@ -144,7 +146,7 @@ def find_landing(
     x, y, z = load(s, LOCALSPACE_SPHERE)
     r = s[LOCALSPACE_SPHERE + RADIUS]
     ux, uy, uz = load(s, LOCALSPACE_Z)
-    if no_ground_near(wf, wi, s, root, x, y, z, r, ux, uy, uz):
+    if allows(s, PLAN_WALKS) and no_ground_near(wf, wi, s, root, x, y, z, r, ux, uy, uz):
         return OK
     poly, vx, vy, vz = find_walkable(wf, wi, s, root, x, y, z, r, mx, my, mz, ux, uy, uz)
     if poly == NO_POLYGON:

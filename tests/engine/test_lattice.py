@@ -7,12 +7,13 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 import pytest
-from engine_scenes import CELL, R, floor_and_wall, triangle, world_of
+from engine_scenes import CELL, R, floor_and_wall, mover, triangle, world_of
+from engine_scenes import at as near
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from conformance.bench.scenes import make_scene
-from engine import Cell, Leaf, Node, Plan, Pose, Shape, Stage, World
+from engine import Cell, Leaf, Move, Node, Plan, Pose, Shape, Stage, World, resolve
 from engine import layout as at
 from engine.compiling import lattice
 from engine.constants import FLOOR_Z, LATTICE_REACH
@@ -36,12 +37,10 @@ ROOM = make_scene("room").world
 FLOOR = world_of(floor_and_wall())
 
 
-def is_clear(
-    world: World, x: float, y: float, z: float, r: float, center_check: int = 0, plan: Plan = WALKS
-) -> bool:
+def is_clear(world: World, x: float, y: float, z: float, r: float, center_check: int = 0) -> bool:
     """Say whether the lattice of a world's first cell knows that nothing is near."""
     numbers = (np.float64(value) for value in (x, y, z, r))
-    row = world.new_row(plan=plan)
+    row = world.new_row()
     clear = bool(LOOK_UP(world.floats, world.ints, row, world.tree_of(0), *numbers, center_check))
     assert row[at.SKIPPED_WALKS] == clear
     return clear
@@ -50,7 +49,7 @@ def is_clear(
 def has_no_ground(world: World, sphere: tuple[float, ...], up: tuple[float, ...], allowance: float) -> bool:
     """Say whether the lattice of a world's first cell knows that there is nothing to stand on."""
     numbers = (np.float64(value) for value in (*sphere, *up))
-    row = world.new_row(plan=WALKS)
+    row = world.new_row()
     row[at.WALKABLE_ALLOWANCE] = allowance
     none = bool(NO_GROUND(world.floats, world.ints, row, world.tree_of(0), *numbers))
     assert row[at.SKIPPED_WALKS] == none
@@ -118,10 +117,14 @@ def test_what_is_known(center: tuple[float, float, float], r: float, center_chec
     assert is_clear(FLOOR, *center, r, center_check) == clear
 
 
-def test_nothing_is_known_if_the_plan_says_so() -> None:
-    """Retail's own way, walk by walk."""
-    assert not is_clear(FLOOR, -1.5, 0.0, 1.5, R, plan=Plan.none())
-    assert not is_clear(FLOOR, -1.5, 0.0, 1.5, R, plan=Plan(Plan().skip & ~Stage.WALKS))
+@pytest.mark.parametrize(
+    ("plan", "taken"), [(Plan(), True), (WALKS, True), (Plan(Plan().skip & ~Stage.WALKS), False)]
+)
+def test_walks_are_made_if_the_plan_says_so(plan: Plan, taken: bool) -> None:
+    """A mover that falls too near to a wall for a free flight, and touches nothing, makes none otherwise."""
+    move = Move(mover(spheres=2), near(0.45, 0.0, 1.0), CELL, start=near(0.45, 0.0, 1.3))
+    skipped = resolve(FLOOR, move, plan=plan)["skipped"][list(Stage).index(Stage.WALKS)]
+    assert (skipped > 0.0) == taken
 
 
 @pytest.mark.parametrize(
