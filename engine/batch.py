@@ -134,7 +134,7 @@ def find_collisions_many(
 
     `calls` are CollisionCall objects, or rows made by `engine.query.collision_rows`.
     What `threads`, `plan`, `coherent` and `out` are, `resolve_many` says; of the plan only `Stage.BOUNDS`
-    concerns single calls. See `find_collisions`.
+    and `Stage.WALKS` concern single calls. See `find_collisions`.
     """
     rows = calls if isinstance(calls, np.ndarray) else collision_rows(world, calls)
     return _run(program.COLLIDE, world, rows, threads, of_calls(plan), coherent=coherent, out=out)
@@ -175,7 +175,7 @@ def find_object_collisions_many(
 
     `calls` are ObjectCall objects, or rows made by `engine.object_call.object_rows`.
     What `threads`, `plan`, `coherent` and `out` are, `resolve_many` says; of the plan only `Stage.BOUNDS`
-    concerns single calls. See `find_object_collisions`.
+    and `Stage.WALKS` concern single calls. See `find_object_collisions`.
     """
     rows = calls if isinstance(calls, np.ndarray) else object_rows(world, calls)
     return _run(program.MEET, world, rows, threads, of_calls(plan), coherent=coherent, out=out)

@@ -70,7 +70,7 @@ class Plan:
 
 FULL_PLAN: Final = Plan()
 """What is used where nothing else is said."""
-CALL_PLAN: Final = Plan(Stage.BOUNDS)
+CALL_PLAN: Final = Plan(Stage.BOUNDS | Stage.WALKS)
 """What is used of single calls of trees and objects: the other shortcuts are those of whole transitions."""
 NO_PLAN: Final = Plan.none()
 

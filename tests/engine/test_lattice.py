@@ -12,8 +12,10 @@ from engine_scenes import at as near
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
+from conformance.bench.sampling import tree_calls
 from conformance.bench.scenes import make_scene
-from engine import Cell, Leaf, Move, Node, Plan, Pose, Shape, Stage, World, resolve
+from conformance.bench.spots import Surfaces
+from engine import Cell, Leaf, Move, Node, Plan, Pose, Shape, Stage, World, find_collisions_many, resolve
 from engine import layout as at
 from engine.compiling import lattice
 from engine.constants import FLOOR_Z, LATTICE_REACH
@@ -223,6 +225,18 @@ def test_most_spheres_that_touch_nothing_are_known() -> None:
             known += is_clear(ROOM, *center, R)
     assert free > 100
     assert known > 0.9 * free
+
+
+@pytest.mark.parametrize("name", ["room", "building"])
+def test_single_calls_are_answered_alike(name: str) -> None:
+    """Strides beside walls and steps down, with it and without: the same bytes but for counters of work."""
+    scene = make_scene(name)
+    rows = tree_calls(scene, Surfaces(scene.geometry), np.random.default_rng(31), 2_000).rows
+    short, full = (find_collisions_many(scene.world, rows, plan=plan) for plan in (WALKS, Plan.none()))
+    for field in set(short.dtype.names) - {"nodes_visited", "polygons_tested", "skipped"}:
+        assert np.ascontiguousarray(short[field]).tobytes() == np.ascontiguousarray(full[field]).tobytes()
+    assert short["skipped"].sum() > 1_000
+    assert short["nodes_visited"].sum() < full["nodes_visited"].sum()
 
 
 def test_a_list_that_lacks_a_polygon_would_be_noticed() -> None:
