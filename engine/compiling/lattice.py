@@ -104,12 +104,17 @@ def _divided(shape: Shape, balls: Array) -> tuple[Cubes, Ints]:
 def _near(
     floats: Array, ints: Ints, gate: Array, listed: Ints, ranges: Ints, size: int
 ) -> tuple[Ints, Ints, Ints]:
-    """Return of each cube where its polygons begin and end, and the polygons of all of them."""
+    """Return of each cube where its polygons begin and end, and the polygons of all of them.
+
+    A cube that is near to too many has none, and ends at -1.
+    """
     counts = np.zeros(size, dtype=np.int64)
     nothing = np.empty(0, dtype=np.int64)
     note_near(floats, ints, gate, listed, ranges, counts, nothing)
+    crowded = counts >= at.CROWDED
+    counts[crowded] = 0
     begins = np.cumsum(counts) - counts
-    ends, near = begins.copy(), np.empty(int(counts.sum()), dtype=np.int64)
+    ends, near = np.where(crowded, -1, begins), np.empty(int(counts.sum()), dtype=np.int64)
     note_near(floats, ints, gate, listed, ranges, ends, near)
     return begins, ends, near
 

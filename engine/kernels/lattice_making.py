@@ -95,7 +95,8 @@ def note_near(wf: Array, wi: Ints, gate: Array, listed: Ints, ranges: Ints, ends
     ranges : ndarray of int, shape (n, 6)
         Of each the first cubes along x, y and z that it may be near, and the cubes behind the last.
     ends : ndarray of int
-        Of each cube, where the next of its polygons is to be noted; grows by their number.
+        Of each cube, where the next of its polygons is to be noted; grows by their number. Less than 0 if
+        none is.
     near : ndarray of int
         Gets the polygons' records, if it is not empty.
     """
@@ -104,11 +105,13 @@ def note_near(wf: Array, wi: Ints, gate: Array, listed: Ints, ranges: Ints, ends
         for a in range(ranges[k, 0], ranges[k, 3]):
             for b in range(ranges[k, 1], ranges[k, 4]):
                 for c in range(ranges[k, 2], ranges[k, 5]):
+                    cube = _number(a, b, c, ny, nz)
+                    if ends[cube] < 0:
+                        continue
                     x, y, z = _middle(gate, a, b, c)
                     reach = LATTICE_REACH + _around(gate, x, y, z)
                     if polygon_beyond(wf, wi, listed[k], x, y, z, reach):
                         continue
-                    cube = _number(a, b, c, ny, nz)
                     if len(near) > 0:
                         near[ends[cube]] = wi[listed[k]]
                     ends[cube] += 1
@@ -170,7 +173,7 @@ def _shared(begins: Ints, ends: Ints, near: Ints, words: Ints, cube: int, other:
     """Return where the list of another cube is, if it is that of this one, too, and -1 if not."""
     first, count = begins[cube], ends[cube] - begins[cube]
     word = words[other]
-    if count == CROWDED or (word >> WORD_COUNT_SHIFT & CROWDED) != count:
+    if (word >> WORD_COUNT_SHIFT & CROWDED) != count:
         return -1
     return word >> WORD_LIST_SHIFT if _are_alike(near, begins[other], first, count) else -1
 
@@ -197,13 +200,13 @@ def _place(gate: Array, begins: Ints, ends: Ints, near: Ints, words: Ints, cube:
 def share_lists(gate: Array, begins: Ints, ends: Ints, near: Ints, words: Ints, lists: Ints) -> int:
     """Add to each cube's word where its list is; return how much of `lists` is used.
 
-    A cube shares the list of a neighbour that has the same one. What is too long, or has no room any more,
-    is CROWDED.
+    A cube shares the list of a neighbour that has the same one. One without a list, or whose list has no room
+    any more, is CROWDED.
 
     Parameters
     ----------
     begins, ends : ndarray of int
-        Of each cube, where in `near` its polygons are.
+        Of each cube, where in `near` its polygons are; the end is less than 0 if they are too many.
     near : ndarray of int
     words : ndarray of int
     lists : ndarray of int
@@ -214,8 +217,8 @@ def share_lists(gate: Array, begins: Ints, ends: Ints, near: Ints, words: Ints, 
         first, count = begins[cube], ends[cube] - begins[cube]
         if count == 0:
             continue
-        place = _place(gate, begins, ends, near, words, cube)
-        if place < 0 and count < CROWDED and used + count <= len(lists):
+        place = -1 if count < 0 else _place(gate, begins, ends, near, words, cube)
+        if place < 0 < count and used + count <= len(lists):
             place = used
             for k in range(count):
                 lists[used + k] = near[first + k]
