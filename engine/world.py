@@ -11,6 +11,7 @@ from engine.cells import CHECK_CELL, CHECK_RESTRICTION
 from engine.checks import keyed, optional, record, several
 from engine.compiling.balls import write_plates
 from engine.compiling.bounds import write_bounds
+from engine.compiling.cell_trees import CellTrees
 from engine.compiling.cells import CellNumbers, ObjectLists, write_buildings, write_cells
 from engine.compiling.clearance import write_clearances
 from engine.compiling.ids import id_table
@@ -122,11 +123,12 @@ class World:
         counts = len(lists.obstacles), len(buildings)
         header |= write_bounds(storage, header, cells, numbers.ids, listed, counts)
         header |= write_plates(storage, header)
-        header |= write_clearances(storage, header, cells)
-        write_lattices(storage, header, cells)
+        trees = CellTrees.of(storage, header, cells)
+        header |= write_clearances(storage, trees, cells)
+        write_lattices(storage, trees)
         self.floats, self.ints = storage.finish(header)
-        trees = {storage.root_of(shape): shape for shape in self.shapes}
-        write_slopes(self.floats, self.ints, trees, len(parts))
+        roots = {storage.root_of(shape): shape for shape in self.shapes}
+        write_slopes(self.floats, self.ints, roots, len(parts))
         self._polygons: Final = storage.polygons
         self._spare_rows: Final[list[Array]] = []
 

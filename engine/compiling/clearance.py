@@ -7,17 +7,17 @@ from typing import TYPE_CHECKING, Final
 import numpy as np
 
 from engine import layout as at
-from engine.compiling.cubes import cubes_about
+from engine.compiling.cubes import cubes_about, packed
 from engine.kernels.clearance import measure_clearance
-from engine.memory import aligned
 
 if TYPE_CHECKING:
-    from collections.abc import Mapping, Sequence
+    from collections.abc import Sequence
 
     from engine.cells import Cell
+    from engine.compiling.cell_trees import CellTrees
     from engine.compiling.storage import Storage
     from engine.geometry import Shape
-    from engine.kernels.types import Array, Bytes, Ints
+    from engine.kernels.types import Array
 
 _LEAST_EDGE: Final = 0.5
 """Edge of a cube, metres, where there are cubes enough: finer ones say little more of a human's reach."""
@@ -29,35 +29,21 @@ _STEPS_PER_EDGE: Final = 8
 """Resolution of clearances."""
 
 
-def write_clearances(storage: Storage, header: Mapping[int, int], cells: Sequence[Cell]) -> dict[int, int]:
+def write_clearances(storage: Storage, trees: CellTrees, cells: Sequence[Cell]) -> dict[int, int]:
     """Write a grid for each tree of an environment cell; return what the header says of them.
 
-    Parameters
-    ----------
-    header : mapping
-        What it says of the rest, which is all written: plates of polygons are needed, too.
-    cells : sequence of Cell
-        The environment cells.
+    `trees`: those of the environment cells, `cells`.
     """
-    floats, ints = storage.finish(header)
-    row: Array = aligned(int(ints[at.WORLD_ROW]), np.float64)
-    row[:] = 0.0
     grids: dict[int, int] = {}
-    for shape in shapes_of(cells):
+    for shape in trees.shapes:
         grid = _grid_about(shape)
         levels = np.zeros(int(grid[at.CLEARANCE_COUNTS :][:3].prod()), dtype=np.uint8)
-        measure_clearance(floats, ints, row, storage.root_of(shape), grid, levels)
-        grid[at.CLEARANCE_LEVELS] = storage.add_ints(_packed(levels))
+        measure_clearance(trees.floats, trees.ints, trees.row, storage.root_of(shape), grid, levels)
+        grid[at.CLEARANCE_LEVELS] = storage.add_ints(packed(levels, int(at.CLEARANCE_BITS)))
         storage.align()
         grids[id(shape)] = storage.add_floats(grid)
     table = [grids.get(id(cell.shape), int(at.NO_CLEARANCE)) for cell in cells]
     return {int(at.WORLD_CLEARANCES): storage.add_ints(table)}
-
-
-def shapes_of(cells: Sequence[Cell]) -> list[Shape]:
-    """Return the shapes of cells that have polygons, each once."""
-    shapes = {id(cell.shape): cell.shape for cell in cells if cell.shape is not None}
-    return [shape for shape in shapes.values() if len(shape.polygon_offsets)]
 
 
 def _grid_about(shape: Shape) -> Array:
@@ -71,11 +57,3 @@ def _grid_about(shape: Shape) -> Array:
     grid[at.CLEARANCE_PER_METRE] = 1.0 / cubes.edge
     grid[at.CLEARANCE_STEP] = cubes.edge / _STEPS_PER_EDGE
     return grid
-
-
-def _packed(levels: Bytes) -> Ints:
-    """Put eight levels into each integer, the first one into the lowest bits."""
-    room = -len(levels) % 8
-    eights = np.pad(levels, (0, room)).reshape(-1, 8).astype(np.int64)
-    packed: Ints = (eights << int(at.CLEARANCE_BITS) * np.arange(8)).sum(axis=1)
-    return packed

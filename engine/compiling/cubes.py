@@ -1,4 +1,4 @@
-"""Boxes about shapes divided into cubes."""
+"""Boxes about shapes divided into cubes, and what is known of the cubes in few bits."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ if TYPE_CHECKING:
     from collections.abc import Iterator
 
     from engine.geometry import Shape
-    from engine.kernels.types import Array
+    from engine.kernels.types import Array, Bytes, Ints
 
 _COARSER: Final = 1.1
 """How much longer edges are made until there are few enough cubes."""
@@ -63,3 +63,11 @@ def cubes_about(shape: Shape, least_edge: float, most: int, block: int = 1) -> I
         if counts.prod() <= max(most, block**3):
             yield Cubes(low, counts, edge)
         edge *= _COARSER
+
+
+def packed(numbers: Bytes | Ints, bits: int) -> Ints:
+    """Put as many numbers of so many bits into each integer as there is room for, the first one lowest."""
+    each = 64 // bits
+    groups = np.pad(numbers, (0, -len(numbers) % each)).reshape(-1, each).astype(np.int64)
+    found: Ints = np.bitwise_or.reduce(groups << bits * np.arange(each), axis=1)
+    return found

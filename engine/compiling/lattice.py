@@ -7,16 +7,12 @@ from typing import TYPE_CHECKING, Final
 import numpy as np
 
 from engine import layout as at
-from engine.compiling.clearance import shapes_of
-from engine.compiling.cubes import cubes_about
+from engine.compiling.cubes import cubes_about, packed
 from engine.constants import BOUND_ROUNDING, BOUND_SLACK, LATTICE_REACH
 from engine.kernels.lattice_making import note_near, note_solid, share_lists
-from engine.memory import aligned
 
 if TYPE_CHECKING:
-    from collections.abc import Mapping, Sequence
-
-    from engine.cells import Cell
+    from engine.compiling.cell_trees import CellTrees
     from engine.compiling.cubes import Cubes
     from engine.compiling.storage import Storage
     from engine.geometry import Shape
@@ -36,20 +32,10 @@ _MOST_LISTED: Final = 1 << int(at.WORD_BITS - at.WORD_LIST_SHIFT)
 """nor beyond what a word can say."""
 
 
-def write_lattices(storage: Storage, header: Mapping[int, int], cells: Sequence[Cell]) -> None:
-    """Write a lattice for each tree of an environment cell, and where it is into the tree's gate.
-
-    Parameters
-    ----------
-    header : mapping
-        What it says of the rest, which is all written: plates of polygons are needed, too.
-    cells : sequence of Cell
-        The environment cells.
-    """
-    floats, ints = storage.finish(header)
-    row: Array = aligned(int(ints[at.WORLD_ROW]), np.float64)
-    row[:] = 0.0
-    for shape in shapes_of(cells):
+def write_lattices(storage: Storage, trees: CellTrees) -> None:
+    """Write a lattice for each tree of an environment cell, and where it is into the tree's gate."""
+    floats, ints = trees.floats, trees.ints
+    for shape in trees.shapes:
         listed = _listed(storage, ints, shape)
         cubes, ranges = _divided(shape, _balls(floats, ints, listed))
         gate, places = storage.gate_of(shape)
@@ -57,7 +43,7 @@ def write_lattices(storage: Storage, header: Mapping[int, int], cells: Sequence[
         gate[at.LATTICE_PER_METRE] = 1.0 / cubes.edge
         gate[at.LATTICE_COUNTS : at.LATTICE_COUNTS + at.VECTOR_SIZE] = cubes.counts
         words = np.zeros(cubes.size, dtype=np.int64)
-        note_solid(floats, ints, row, storage.root_of(shape), gate, words)
+        note_solid(floats, ints, trees.row, storage.root_of(shape), gate, words)
         begins, ends, near = _near(floats, ints, gate, listed, ranges, cubes.size)
         room = min(_LISTED_PER_POLYGON * len(shape.polygon_offsets), _MOST_LISTED)
         lists = np.empty(room, dtype=np.int64)
@@ -65,7 +51,7 @@ def write_lattices(storage: Storage, header: Mapping[int, int], cells: Sequence[
         blocks, numbers = _shared(words)
         first = storage.add_ints(blocks.ravel())
         places[at.LATTICE_TABLE] = storage.add_ints(first + blocks.shape[1] * numbers)
-        places[at.LATTICE_LISTS] = storage.add_ints(_packed(lists[:used]))
+        places[at.LATTICE_LISTS] = storage.add_ints(packed(lists[:used], int(at.WORD_BITS)))
 
 
 def _listed(storage: Storage, ints: Ints, shape: Shape) -> Ints:
@@ -132,11 +118,4 @@ def _shared(words: Ints) -> tuple[Ints, Ints]:
     numbers[uniform] = which
     numbers[~uniform] = len(values) + np.arange((~uniform).sum())
     kept = np.concatenate([same, blocks[~uniform]])
-    return _packed(kept.ravel()).reshape(len(kept), -1), numbers
-
-
-def _packed(words: Ints) -> Ints:
-    """Put two numbers into each integer, the first one into the lower half."""
-    pairs = np.pad(words, (0, len(words) % 2)).reshape(-1, 2)
-    packed: Ints = pairs[:, 0] | pairs[:, 1] << int(at.WORD_BITS)
-    return packed
+    return packed(kept.ravel(), int(at.WORD_BITS)).reshape(len(kept), -1), numbers
