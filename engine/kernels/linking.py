@@ -24,13 +24,22 @@ class _NoEnvironment:
         """Do nothing: there is no address to store it at, and nothing that reads it."""
 
 
-class KernelLibrary(JITCodeLibrary):
+class _Library(JITCodeLibrary):
+    """Numba's, which spends no pass on a function that is only declared."""
+
+    def _optimize_functions(self, ll_module: Any) -> None:
+        """Run LLVM's passes over each function with a body by itself."""
+        ll_module.data_layout = self._codegen._data_layout  # noqa: SLF001
+        passes, builder = self._codegen._function_pass_manager()  # noqa: SLF001
+        for function in ll_module.functions:
+            if not function.is_declaration:
+                passes.run(function, builder)
+
+
+class KernelLibrary(_Library):
     """The code of one kernel, without what it calls; only ever linked into others."""
 
     codegen = _NoEnvironment()
-
-    def _optimize_functions(self, ll_module: Any) -> None:
-        _tidy(self, ll_module)
 
     def finalize(self) -> None:
         """Be ready for linking, which is all that is asked of it."""
@@ -46,11 +55,8 @@ class KernelLibrary(JITCodeLibrary):
         return self._final_module
 
 
-class EntryLibrary(JITCodeLibrary):
+class EntryLibrary(_Library):
     """The code of a kernel that Python calls, and of all that it calls."""
-
-    def _optimize_functions(self, ll_module: Any) -> None:
-        _tidy(self, ll_module)
 
     def finalize(self) -> None:
         """Link all kernels below, and optimise them as one program."""
@@ -64,15 +70,6 @@ class EntryLibrary(JITCodeLibrary):
         self._optimize_final_module()
         self._final_module.verify()
         self._finalize_final_module()
-
-
-def _tidy(library: JITCodeLibrary, module: Any) -> None:
-    """Run LLVM's passes over each function by itself: as Numba does, but on those only that have a body."""
-    module.data_layout = library._codegen._data_layout  # noqa: SLF001
-    passes, builder = library._codegen._function_pass_manager()  # noqa: SLF001
-    for function in module.functions:
-        if not function.is_declaration:
-            passes.run(function, builder)
 
 
 def _modules_below(library: Any) -> Iterator[Any]:
