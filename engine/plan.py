@@ -4,8 +4,8 @@ A transition is a chain of tests, most of which find nothing: of objects that ar
 portals that nobody is near, of a tree while the mover flies through the middle of a room. A *shortcut*
 leaves such tests out where a broad phase shows that they find nothing. None of them can change a bit of
 a result: the kernels that take them prove it, each at its place (`engine.kernels.plan`, `plan_portals`,
-`plan_flight`, `gate`), most of them from bounds that are derived in `engine.kernels.broad`. What may differ
-is counters of work.
+`plan_flight`, `gate`, `lattice`), most of them from bounds that are derived in `engine.kernels.broad`. What
+may differ is counters of work.
 
 Batches, prepared queries and ticks use all shortcuts unless they are told otherwise. A row of state that
 records a trace uses none, since a trace tells of every call that retail makes; nor does `recording`.

@@ -16,7 +16,6 @@ from engine.kernels.compile import inlined, kernel
 from engine.kernels.frame import rotate_x_last
 from engine.kernels.lattice import no_ground_near, nothing_near
 from engine.kernels.path import add_offset_to_check_pos, entered_sphere, set_walkable
-from engine.kernels.plan import allows
 from engine.kernels.plane import plane_localtoglobal
 from engine.kernels.position import position_localtoglobalvec
 from engine.kernels.rounding import f32
@@ -30,7 +29,6 @@ from engine.layout import (
     LOCALSPACE_Z,
     NO_POLYGON,
     NUM_SPHERE,
-    PLAN_WALKS,
     RADIUS,
     STEP_DOWN_AMT,
     WALK_INTERP,
@@ -58,7 +56,7 @@ def find_room(wf: Array, wi: Ints, s: Array, root: int) -> int:
     flag = center_check_flag(s)
     for i in range(max(int(s[NUM_SPHERE]), 1)):
         x, y, z, r = entered_sphere(s, i)
-        if allows(s, PLAN_WALKS) and nothing_near(wf, wi, s, root, x, y, z, r, flag):
+        if nothing_near(wf, wi, s, root, x, y, z, r, flag):
             continue
         if sphere_intersects_solid(wf, wi, s, root, x, y, z, r, flag):
             return COLLIDED
@@ -102,6 +100,30 @@ def _step_movement(s: Array, scale: float) -> Vector:
     return f32(inv * ax), f32(ay * inv32), f32(az * inv32)
 
 
+@inlined
+def _find_ground(
+    wf: Array,
+    wi: Ints,
+    s: Array,
+    root: int,
+    x: float,
+    y: float,
+    z: float,
+    r: float,
+    mx: float,
+    my: float,
+    mz: float,
+) -> tuple[int, float, float, float]:
+    """Search for ground along a movement; return the polygon, or `NO_POLYGON`, and where it puts the sphere.
+
+    retail: SD-4, FC-6
+    """
+    ux, uy, uz = load(s, LOCALSPACE_Z)
+    if no_ground_near(wf, wi, s, root, x, y, z, r, ux, uy, uz):
+        return NO_POLYGON, x, y, z
+    return find_walkable(wf, wi, s, root, x, y, z, r, mx, my, mz, ux, uy, uz)
+
+
 @kernel
 def step_sphere_down(wf: Array, wi: Ints, s: Array, root: int, scale: float) -> int:
     """Path 3: put sphere 0 on what is walkable within the step.
@@ -111,10 +133,7 @@ def step_sphere_down(wf: Array, wi: Ints, s: Array, root: int, scale: float) -> 
     mx, my, mz = _step_movement(s, scale)
     x, y, z = load(s, LOCALSPACE_SPHERE)
     r = s[LOCALSPACE_SPHERE + RADIUS]
-    ux, uy, uz = load(s, LOCALSPACE_Z)
-    if allows(s, PLAN_WALKS) and no_ground_near(wf, wi, s, root, x, y, z, r, ux, uy, uz):
-        return OK
-    poly, vx, vy, vz = find_walkable(wf, wi, s, root, x, y, z, r, mx, my, mz, ux, uy, uz)
+    poly, vx, vy, vz = _find_ground(wf, wi, s, root, x, y, z, r, mx, my, mz)
     if poly == NO_POLYGON:
         return OK
     ox, oy, oz = rotate_x_last(s, LOCALSPACE_POS, vx - x, vy - y, vz - z)
@@ -145,10 +164,7 @@ def find_landing(
     """
     x, y, z = load(s, LOCALSPACE_SPHERE)
     r = s[LOCALSPACE_SPHERE + RADIUS]
-    ux, uy, uz = load(s, LOCALSPACE_Z)
-    if allows(s, PLAN_WALKS) and no_ground_near(wf, wi, s, root, x, y, z, r, ux, uy, uz):
-        return OK
-    poly, vx, vy, vz = find_walkable(wf, wi, s, root, x, y, z, r, mx, my, mz, ux, uy, uz)
+    poly, vx, vy, vz = _find_ground(wf, wi, s, root, x, y, z, r, mx, my, mz)
     if poly == NO_POLYGON:
         return OK
     move_scaled(s, vx, vy, vz, scale)

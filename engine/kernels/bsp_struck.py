@@ -20,7 +20,6 @@ from engine.kernels.compile import inlined, kernel
 from engine.kernels.frame import frame_localtoglobalvec
 from engine.kernels.lattice import nothing_near
 from engine.kernels.path import entered_sphere, set_collide, set_neg_poly_hit
-from engine.kernels.plan import allows
 from engine.kernels.position import position_localtoglobalvec
 from engine.kernels.sphere import slide_sphere
 from engine.kernels.vector import load, store
@@ -31,7 +30,6 @@ from engine.layout import (
     NO_POLYGON,
     NUM_SPHERE,
     OI_STATE,
-    PLAN_WALKS,
     RADIUS,
     REQUESTED_NORMAL,
     WALKABLE_ALLOWANCE,
@@ -47,7 +45,7 @@ def _strikes(
 ) -> tuple[bool, int]:
     """Search for the polygon that one of the row's spheres strikes."""
     x, y, z, r = entered_sphere(s, sphere)
-    if allows(s, PLAN_WALKS) and nothing_near(wf, wi, s, root, x, y, z, r, 0):
+    if nothing_near(wf, wi, s, root, x, y, z, r, 0):
         return False, NO_POLYGON
     return sphere_intersects_poly(wf, wi, s, root, x, y, z, r, mx, my, mz, NO_POLYGON)
 

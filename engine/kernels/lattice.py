@@ -13,6 +13,7 @@ from typing import TYPE_CHECKING
 from engine.constants import LATTICE_REACH
 from engine.kernels.compile import inlined, kernel
 from engine.kernels.indexing import unsigned
+from engine.kernels.plan import allows
 from engine.kernels.polygon import polygon_hits_sphere_slow_but_sure, polygon_walkable_hits_sphere
 from engine.kernels.polygon_edges import HIT
 from engine.layout import (
@@ -27,6 +28,7 @@ from engine.layout import (
     LATTICE_TABLE,
     NODE_FLOATS,
     NODE_INTS,
+    PLAN_WALKS,
     POLYGONS_TESTED,
     SKIPPED_WALKS,
     WALKABLE_ALLOWANCE,
@@ -86,14 +88,14 @@ def _word_at(wf: Array, wi: Ints, root: int, x: float, y: float, z: float) -> in
 
 @inlined
 def _what_is_near(
-    wf: Array, wi: Ints, root: int, x: float, y: float, z: float, r: float
+    wf: Array, wi: Ints, s: Array, root: int, x: float, y: float, z: float, r: float
 ) -> tuple[int, int, int]:
     """Return the word of a sphere's cube, and where in the lists its polygons begin, and end.
 
     All that they leave out of the tree's polygons is BEYOND the sphere, or MISSes it. The word is that of a
-    point in no cube if nothing is known of such a sphere.
+    point in no cube if nothing is known of such a sphere, or the plan does not ask for it.
     """
-    if not 0.0 <= r <= LATTICE_REACH:
+    if not 0.0 <= r <= LATTICE_REACH or not allows(s, PLAN_WALKS):
         return _UNKNOWN, 0, 0
     word = _word_at(wf, wi, root, x, y, z)
     first = word >> WORD_LIST_SHIFT
@@ -129,7 +131,7 @@ def nothing_near(
     retail: BSPNODE::sphere_intersects_poly 0x0053CA30, SP-4...SP-6;
     BSPNODE::sphere_intersects_solid 0x0053CAF0, SO-6...SO-8
     """
-    word, first, end = _what_is_near(wf, wi, root, x, y, z, r)
+    word, first, end = _what_is_near(wf, wi, s, root, x, y, z, r)
     if _is_unknown(word) or (word & WORD_SOLID and center_check != 0):
         return False
     s[POLYGONS_TESTED] += end - first
@@ -162,7 +164,7 @@ def no_ground_near(
 
     retail: BSPNODE::find_walkable 0x0053CC80, FW-4, FW-5
     """
-    word, first, end = _what_is_near(wf, wi, root, x, y, z, r)
+    word, first, end = _what_is_near(wf, wi, s, root, x, y, z, r)
     if _is_unknown(word):
         return False
     allowance = s[WALKABLE_ALLOWANCE]

@@ -43,7 +43,7 @@ FLOOR = world_of(floor_and_wall())
 def is_clear(world: World, x: float, y: float, z: float, r: float, center_check: int = 0) -> bool:
     """Say whether the lattice of a world's first cell knows that nothing is near."""
     numbers = (np.float64(value) for value in (x, y, z, r))
-    row = world.new_row()
+    row = world.new_row(plan=WALKS)
     clear = bool(LOOK_UP(world.floats, world.ints, row, world.tree_of(0), *numbers, center_check))
     assert row[at.SKIPPED_WALKS] == clear
     return clear
@@ -52,7 +52,7 @@ def is_clear(world: World, x: float, y: float, z: float, r: float, center_check:
 def has_no_ground(world: World, sphere: tuple[float, ...], up: tuple[float, ...], allowance: float) -> bool:
     """Say whether the lattice of a world's first cell knows that there is nothing to stand on."""
     numbers = (np.float64(value) for value in (*sphere, *up))
-    row = world.new_row()
+    row = world.new_row(plan=WALKS)
     row[at.WALKABLE_ALLOWANCE] = allowance
     none = bool(NO_GROUND(world.floats, world.ints, row, world.tree_of(0), *numbers))
     assert row[at.SKIPPED_WALKS] == none
@@ -243,9 +243,8 @@ def test_single_calls_are_answered_alike(name: str) -> None:
 def test_a_list_that_lacks_a_polygon_would_be_noticed() -> None:
     """Without its lists, the lattice calls the floor clear: what the property above is there for."""
     world = world_of(floor_and_wall())
-    _, ints = gate_of(world)
+    floats, ints = gate_of(world)
     table = int(ints[at.LATTICE_TABLE])
-    floats, _ = gate_of(world)
     blocks = int(floats[at.LATTICE_COUNTS :][:3].prod()) >> 3 * int(at.LATTICE_BLOCK)
     for first in np.unique(world.ints[table : table + blocks]):
         world.ints[first : first + 32] = 0
