@@ -8,6 +8,7 @@ import math
 import re
 from typing import TYPE_CHECKING, Any, Final
 
+from conformance.json_reading import LooseJsonError, read_json
 from conformance.vector_errors import MalformedLineError
 
 if TYPE_CHECKING:
@@ -54,10 +55,7 @@ def _skip_line(stream: BinaryIO, raw: bytes) -> None:
 def _read_line(name: Path, number: int, raw: bytes) -> tuple[int, dict[str, Any]] | MalformedLineError:
     try:
         text = raw.decode("utf-8-sig" if number == 1 else "utf-8")
-        read_float = _finite if _PERHAPS_TOO_LARGE.search(text) else None
-        record = json.loads(
-            text, parse_constant=_refuse_constant, parse_float=read_float, object_pairs_hook=_once_each
-        )
+        record = read_json(text, _finite if _PERHAPS_TOO_LARGE.search(text) else float)
         if _ESCAPED_SURROGATE.search(text):
             _check_text(record)
     except UnicodeDecodeError as error:
@@ -65,6 +63,8 @@ def _read_line(name: Path, number: int, raw: bytes) -> tuple[int, dict[str, Any]
         return _malformed(f"not UTF-8: {reason}", name, number, error.start + 1)
     except json.JSONDecodeError as error:
         return _malformed(f"not JSON: {error.msg}", name, number, error.colno)
+    except LooseJsonError as error:
+        return _malformed(str(error), name, number, 1)
     except RecursionError:
         return _malformed("not JSON that can be read: nested too deeply", name, number, 1)
     except ValueError as error:
@@ -79,26 +79,11 @@ def _malformed(message: str, file: Path, line: int, column: int) -> MalformedLin
     return MalformedLineError(message, file=file, line=line, column=column)
 
 
-def _refuse_constant(name: str) -> float:
-    quoted = {"NaN": "nan", "Infinity": "inf", "-Infinity": "-inf"}[name]
-    raise ValueError(f'{name} is not JSON, expected the string "{quoted}"')
-
-
 def _finite(text: str) -> float:
     number = float(text)
     if math.isinf(number):
         raise ValueError(f"{text[:20]} is beyond any float")
     return number
-
-
-def _once_each(pairs: list[tuple[str, Any]]) -> dict[str, Any]:
-    """Make an object; of a key that is there twice JSON does not say which counts."""
-    record = dict(pairs)
-    if len(record) != len(pairs):
-        keys = [key for key, _ in pairs]
-        twice = next(key for key in keys if keys.count(key) > 1)
-        raise ValueError(f"the key {twice!a} twice in an object, expected each key once")
-    return record
 
 
 def _check_text(record: Any) -> None:

@@ -12,6 +12,7 @@ from conformance.bench.machine import machine, versions
 from conformance.files import write_text
 from conformance.gate.junit import junit_xml
 from conformance.gate.outcome import VERDICTS, Stage, Status
+from conformance.json_reading import read_json
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
@@ -105,7 +106,7 @@ def passed_before(folder: Path) -> frozenset[str]:
     """
     path = folder / SUMMARY
     try:
-        checks = json.loads(path.read_text(encoding="utf-8"))["checks"]
+        checks = read_json(path.read_text(encoding="utf-8"))["checks"]
         return frozenset(
             check["digest"] for check in checks if check["status"] in _KEPT and check.get("digest")
         )

@@ -17,6 +17,7 @@ from conformance.bench.timing import no_collection
 from conformance.candidates.base import ask_ahead
 from conformance.gate.digests import digest_of
 from conformance.gate.outcome import Check, Stage, Status
+from conformance.json_reading import read_json
 from conformance.query import Result
 
 if TYPE_CHECKING:
@@ -85,7 +86,7 @@ def read_baseline(path: Path, asked: str) -> Baseline:
         It cannot be read, other queries were asked for it, or another Python has run the oracle.
     """
     try:
-        baseline = _baseline_of(json.loads(path.read_text(encoding="utf-8")))
+        baseline = _baseline_of(read_json(path.read_text(encoding="utf-8")))
     except OSError as error:
         raise BaselineError(f"cannot read {path}: {error.strerror}; --write-baseline makes one") from error
     except (ValueError, KeyError, TypeError) as error:

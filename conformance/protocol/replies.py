@@ -3,10 +3,10 @@
 from __future__ import annotations
 
 import json
-import re
 from typing import TYPE_CHECKING, Any, Final
 
 from conformance.fields import FieldError
+from conformance.json_reading import LooseJsonError, read_json
 from conformance.protocol.messages import MOST_BYTES
 from conformance.protocol.readers import read_outputs
 from conformance.query import Errored, Outcome, Result, Skipped
@@ -18,8 +18,6 @@ _BODIES: Final = ("result", "skipped", "errored")
 _USUAL: Final = frozenset({"seq", "result"})
 _MOST_SHOWN: Final = 120
 """Characters of a bad reply that are shown."""
-_MINUS_ZERO: Final = re.compile(rb"-0(?![.0-9eE])")
-_JSON_NUMBERS: Final = {"NaN": "nan", "Infinity": "inf", "-Infinity": "-inf"}
 
 
 class BadReplyError(Exception):
@@ -114,13 +112,14 @@ def _parsed(line: bytes) -> Any:
     if not line.endswith(b"\n"):
         raise BadReplyError(f"{_shown(line)} without a line end", "whole lines")
     try:
-        decoder = _SIGN_DECODER if _MINUS_ZERO.search(line) else _DECODER
-        return decoder.decode(line.decode("utf-8"))
+        return read_json(line.decode("utf-8"))
     except UnicodeDecodeError as error:
         raise BadReplyError(f"bytes that are not UTF-8 at column {error.start + 1}", "UTF-8") from None
     except json.JSONDecodeError as error:
         found = f"{_shown(line)}, which is not JSON ({error.msg}, column {error.colno})"
         raise BadReplyError(found, "one JSON object a line on stdout, and nothing else there") from None
+    except LooseJsonError as error:
+        raise BadReplyError(f"{error.found}: {_shown(line)}", error.expected) from None
     except (ValueError, RecursionError) as error:
         raise BadReplyError(str(error), "JSON") from None
 
@@ -159,18 +158,3 @@ def _shown(line: bytes) -> str:
 
 def _cut(text: str) -> str:
     return text if len(text) <= _MOST_SHOWN else text[: _MOST_SHOWN - 3] + "..."
-
-
-def _refuse_constant(name: str) -> float:
-    raise ValueError(
-        f'{name}, which is not JSON; a float of that value is the string "{_JSON_NUMBERS[name]}"'
-    )
-
-
-def _keep_sign(digits: str) -> float:
-    return -0.0 if digits == "-0" else int(digits)
-
-
-_DECODER: Final = json.JSONDecoder(parse_constant=_refuse_constant)
-_SIGN_DECODER: Final = json.JSONDecoder(parse_constant=_refuse_constant, parse_int=_keep_sign)
-"""Of lines with a ``-0``, as .NET and Go write the float -0.0: a whole number would lose the sign."""

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import json
 from dataclasses import dataclass
 from importlib import metadata
 from typing import TYPE_CHECKING, Any, Final
@@ -11,6 +10,7 @@ from pydantic import ValidationError
 
 from conformance.candidates.table import describe
 from conformance.inputs import read_block
+from conformance.json_reading import read_json
 from conformance.outputs import OUTPUTS
 from conformance.protocol.dialects import read_bits, write_outputs
 from conformance.protocol.features import FEATURES
@@ -70,7 +70,7 @@ class Server:
         """Return the number and the body of the reply to a line, and whether it is the last."""
         seq: int | None = None
         try:
-            record = json.loads(line.decode("utf-8"))
+            record = read_json(line.decode("utf-8"))
             seq = record["seq"] if isinstance(record, dict) and isinstance(record.get("seq"), int) else None
             message = MESSAGE.validate_python(record)
             return seq, self._body(message), isinstance(message, Stop)
@@ -116,7 +116,10 @@ class Server:
         )
 
     def _run(self, message: Run) -> dict[str, Any]:
-        held = _NOTHING if message.scene is None else self._scenes[message.scene]
+        held = _NOTHING if message.scene is None else self._scenes.get(message.scene)
+        if held is None:
+            sent = ", ".join(self._scenes) or "none yet"
+            return _errored(f"found the scene {message.scene!r}, expected one that was sent: {sent}")
         record = {"op": message.op, **self._read(message.inputs)}
         query = query_from_record(record, held.geometries, worlds=held.worlds, label=message.label)
         return outcome_body(message.op, self._candidate.answer(query), self._dialect)

@@ -68,7 +68,7 @@ def test_baselines(tmp_path: Path) -> None:
     path.write_text(replace(baseline, python="2.7").to_json(), encoding="utf-8")
     with pytest.raises(BaselineError, match=r"found Python 2\.7, expected 3\."):
         read_baseline(path, "abc")
-    for text in ("{", "[]", '{"candidate": "x"}', replace(baseline, ratio=0.0).to_json()):
+    for text in ("{", "[]", '{"candidate": "x"}', replace(baseline, ratio=0.0).to_json(), '{"a": 1, "a": 2}'):
         path.write_text(text, encoding="utf-8")
         with pytest.raises(BaselineError):
             read_baseline(path, "abc")

@@ -110,9 +110,22 @@ def test_what_cannot_be_read_is_told_and_the_next_line_answered() -> None:
     assert context(replies[4]).startswith(
         "FieldError: to_cell: found nothing, expected an input of block_offset"
     )
-    assert context(replies[5]).startswith("KeyError: 's9'")
+    assert context(replies[5]) == "found the scene 's9', expected one that was sent: none yet"
     assert context(replies[6]).startswith("KeyError: ")
     assert replies[7] == {"seq": 8, "result": {"v": [0.0, 0.0, 0.0]}}
+
+
+def test_a_message_says_everything_once() -> None:
+    """A key twice, at any depth: which of the two counts is not guessed."""
+    twice = b'{"cmd":"run","seq":1,"op":"block_offset","inputs":{"from_cell":1,"to_cell":1,"to_cell":2}}\n'
+    (reply,) = served(twice)
+    assert "found the key 'to_cell' twice in an object, expected each key once" in context(reply)
+
+
+def test_an_input_written_as_minus_zero_is_negative() -> None:
+    """`-0`, as .NET and Go write it, keeps its sign on the way in."""
+    (reply,) = served(b'{"cmd":"run","seq":1,"op":"normalize_check_small","inputs":{"v":[2,-0,0]}}\n')
+    assert repr(reply["result"]["v"]) == "[1.0, -0.0, 0.0]"
 
 
 def test_another_version_is_refused() -> None:

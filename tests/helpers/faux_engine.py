@@ -108,6 +108,7 @@ def misbehave(seq: int, body: dict) -> None:
         "text-skip": json.dumps({"seq": seq, "skipped": "no"}),
         "field": json.dumps({"seq": seq, "result": {"v": [0, 0, 0], "speed": 1}}),
         "missing": json.dumps({"seq": seq, "result": {}}),
+        "twin-keys": whole.replace('"v":', '"v": [0, 0, 0], "v":', 1),
         "short": json.dumps({"seq": seq, "result": {"v": [0, 0]}}),
         "errored": json.dumps({"seq": seq, "errored": {"context": "out of cells"}}),
         "skipped": json.dumps({"seq": seq, "skipped": {"reason": "too far"}}),

@@ -6,6 +6,7 @@ import json
 import math
 from typing import TYPE_CHECKING, Any, Final
 
+from conformance.json_reading import LooseJsonError, once_each
 from conformance.scenes.errors import SceneError
 
 if TYPE_CHECKING:
@@ -57,7 +58,7 @@ def read_json(file: Path) -> Any:
             parse_int=_whole,
             parse_float=_float,
             parse_constant=_refuse,
-            object_pairs_hook=_once_each,
+            object_pairs_hook=once_each,
         )
     except json.JSONDecodeError as error:
         wrong = SceneError("", error.msg, "JSON")
@@ -65,6 +66,8 @@ def read_json(file: Path) -> Any:
     except RecursionError as error:
         wrong = SceneError("", "lists or objects nested too deeply", "a dump")
         raise DumpError(str(file), wrong) from error
+    except LooseJsonError as error:
+        raise DumpError(str(file), SceneError("", error.found, error.expected)) from error
     except SceneError as error:
         raise DumpError(str(file), error) from error
 
@@ -82,15 +85,6 @@ def _read_text(file: Path) -> str:
     except UnicodeDecodeError as error:
         found = f"byte {error.object[error.start]:#04x} at offset {error.start}"
         raise DumpError(str(file), SceneError("", found, "UTF-8 text")) from error
-
-
-def _once_each(pairs: list[tuple[str, Any]]) -> dict[str, Any]:
-    record = dict(pairs)
-    if len(record) != len(pairs):
-        keys = [key for key, _ in pairs]
-        twice = next(key for key in keys if keys.count(key) > 1)
-        raise SceneError("", f"the key {twice!a} twice in an object", "each key once")
-    return record
 
 
 def _whole(text: str) -> int | float:
