@@ -29,7 +29,10 @@ _FLAGS = (
     "--enable-unsafe-swiftshader",  # WebGL without a graphics card
     "--window-size=1400,1000",
 )
-_SECONDS = 60.0
+SECONDS = 60.0
+"""How long anything may take."""
+_PAUSE = 0.05
+"""Seconds after which it is looked again."""
 
 
 def missing() -> str:
@@ -59,11 +62,11 @@ class Browser:
 
     def wait(self, script: str) -> None:
         """Wait until an expression is true in the page; raises `TimeoutError`."""
-        until = time.monotonic() + _SECONDS
+        until = time.monotonic() + SECONDS
         while not self.run(f"return Boolean({script})"):
             if time.monotonic() > until:
                 raise TimeoutError(script)
-            time.sleep(0.05)
+            time.sleep(_PAUSE)
 
     def console(self) -> list[str]:
         """Return what went wrong in the page since the last call."""
@@ -88,7 +91,7 @@ def browser(profile: Path) -> Iterator[Browser]:
     )
     try:
         root = f"http://127.0.0.1:{port}"
-        _until_ready(root)
+        until_ready(root, driver)
         options = {"args": [*_FLAGS, f"--user-data-dir={profile}"]}
         wanted = {"goog:chromeOptions": options, "goog:loggingPrefs": {"browser": "ALL"}}
         made = _ask("POST", f"{root}/session", {"capabilities": {"alwaysMatch": wanted}})
@@ -99,24 +102,31 @@ def browser(profile: Path) -> Iterator[Browser]:
             _ask("DELETE", session)
     finally:
         driver.terminate()
-        driver.wait(timeout=_SECONDS)
+        driver.wait(timeout=SECONDS)
 
 
-def _until_ready(root: str) -> None:
-    until = time.monotonic() + _SECONDS
-    while True:
+def until_ready(root: str, driver: subprocess.Popen[bytes]) -> None:
+    """Wait until the driver takes sessions; raises `BrowserError` if it ends, or does not in time."""
+    until = time.monotonic() + SECONDS
+    found = "no answer"
+    while time.monotonic() < until:
+        if driver.poll() is not None:
+            raise BrowserError(f"ChromeDriver ended with exit status {driver.returncode}")
         try:
-            if _ask("GET", f"{root}/status")["ready"]:
+            status = _ask("GET", f"{root}/status")
+        except (ConnectionError, TimeoutError) as error:
+            found = str(error)
+        else:
+            if status["ready"]:
                 return
-        except ConnectionError:
-            if time.monotonic() > until:
-                raise
-        time.sleep(0.05)
+            found = str(status)
+        time.sleep(_PAUSE)
+    raise BrowserError(f"ChromeDriver is not ready within {SECONDS:g} s: {found}")
 
 
 def _ask(method: str, url: str, body: Any = None) -> Any:
     parts = urlsplit(url)
-    connection = HTTPConnection(parts.netloc, timeout=_SECONDS)
+    connection = HTTPConnection(parts.netloc, timeout=SECONDS)
     try:
         data = None if body is None else json.dumps(body)
         connection.request(method, parts.path, data, {"Content-Type": "application/json"})
