@@ -13,6 +13,8 @@ PROPERTY: Final = "conformance"
 """Name of the user property that carries a test's counts."""
 MOST_REASONS: Final = 20
 """Failures told again at the end of a run, a line each."""
+MOST_SKIPS: Final = 12
+"""Reasons to skip that a summary names; an engine that begins with one operation has more than a hundred."""
 
 
 @dataclass(slots=True)
@@ -62,13 +64,23 @@ class Counts:
         return [*self.reasons[:MOST_REASONS], *tail, self._line(candidate)]
 
     def _line(self, candidate: str) -> str:
-        said = ", ".join(f"{reason}: {count}" for reason, count in sorted(self.skipped.items()))
         parts = [
             f"{self.cases} cases",
             f"{self.queries} queries compared",
-            f"{self.skipped.total()} skipped" + (f" ({said})" if said else ""),
+            skipped_text(self.skipped),
             f"{self.random} random queries",
             *([f"{self.deviations} failing as recorded"] if self.deviations else []),
             f"candidate {candidate}",
         ]
         return "conformance: " + ", ".join(parts)
+
+
+def skipped_text(skipped: Counter[str]) -> str:
+    """Write how many were skipped and why; of many reasons only the most frequent are named."""
+    named = skipped.most_common(MOST_SKIPS)
+    said = [f"{reason}: {count}" for reason, count in sorted(named)]
+    others = len(skipped) - len(named)
+    if others:
+        rest = skipped.total() - sum(count for _, count in named)
+        said.append(f"and {others} other reason{'' if others == 1 else 's'}: {rest}")
+    return f"{skipped.total()} skipped" + (f" ({', '.join(said)})" if said else "")

@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, Any, Final
 from conformance.candidates.base import ask_ahead
 from conformance.compare import differences
 from conformance.query import Errored, Skipped
+from conformance.summary import skipped_text
 from conformance.vector_errors import VectorError
 from conformance.vector_io import VectorRecord, read_vectors
 
@@ -82,8 +83,7 @@ class Tally:
 
     def summary(self) -> str:
         """Say the counts in one line: ``N passed, M failed, K skipped (why: count), U advisory``."""
-        why = ", ".join(f"{reason}: {count}" for reason, count in sorted(self.skipped.items()))
-        skipped = f"{self.skipped.total()} skipped" + (f" ({why})" if why else "")
+        skipped = skipped_text(self.skipped)
         agree = f" ({self.advisory_agreeing} agree)" if self.advisory else ""
         return f"{self.passed} passed, {self.failed} failed, {skipped}, {self.advisory} advisory{agree}"
 

@@ -24,7 +24,6 @@ EXAMPLES: Final = (
     "conformance new my-failure --like .conformance/found/found-0123456789.yaml",
     "conformance new my-wall --trace-line '[sliding] SlidingNormalValid: 0 -> 1 caller=validate_transition'",
 )
-_SEPARATOR: Final = "::"
 
 
 def configure(parser: argparse.ArgumentParser) -> None:
@@ -123,15 +122,7 @@ def _source(args: argparse.Namespace, built_in: Sequence[Case]) -> Case:
 def _named(text: str, built_in: Sequence[Case]) -> Case:
     """Return the case that ``--like`` names."""
     ours = next((case for case in built_in if case.id == text), None)
-    if ours is not None:
-        return ours
-    path = Path(text)
-    if _SEPARATOR in text or not path.is_file():
-        return find_case(text)
-    cases = _cases([path])
-    if len(cases) != 1:
-        raise UsageError(f"{path} holds {len(cases)} cases without a mistake; name one as {path}::ID")
-    return cases[0]
+    return ours or find_case(text)
 
 
 def _write(line: str) -> LoggedWrite:

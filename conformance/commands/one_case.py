@@ -11,17 +11,20 @@ from conformance import exit_codes
 from conformance.commands.options import UsageError
 
 if TYPE_CHECKING:
-    from collections.abc import Collection
-
     from conformance.case import Case, Loaded, Vary
     from conformance.query import Outcome, Query
 
 _SEPARATOR: Final = "::"
+_OTHERS: Final = " A case of another file is FILE::ID."
 
 
 def add_case(parser: argparse.ArgumentParser) -> None:
     """Add the argument that names the case, for `find_case`."""
-    parser.add_argument("case", metavar="CASE-ID|FILE::ID", help="a built-in case, or a case of a file")
+    parser.add_argument(
+        "case",
+        metavar="CASE-ID|FILE::ID",
+        help="a built-in case, or a case of a file (of a file with one case, the file will do)",
+    )
 
 
 def add_pose(parser: argparse.ArgumentParser) -> None:
@@ -44,10 +47,18 @@ def pose_number(text: str) -> int:
 
 
 def find_case(text: str, vary: Vary | None = None) -> Case:
-    """Return the case ``CASE-ID`` or ``FILE::ID``; raises `UsageError` if there is none."""
-    from conformance.loader import AS_WRITTEN, NoCasesError, load_mentioning, load_paths
+    """Return the case ``CASE-ID`` or ``FILE::ID``, or the only one of a ``FILE``.
+
+    Raises
+    ------
+    UsageError
+        There is none, or the file alone does not say which.
+    """
+    from conformance.loader import AS_WRITTEN, CASE_SUFFIXES, NoCasesError, load_mentioning, load_paths
 
     file, _, case_id = text.rpartition(_SEPARATOR)
+    if not file and Path(text).suffix in CASE_SUFFIXES:
+        file, case_id = text, ""
     vary = vary or AS_WRITTEN
     try:
         found = None if file else _named(case_id, load_mentioning(case_id, vary))
@@ -56,9 +67,11 @@ def find_case(text: str, vary: Vary | None = None) -> Case:
         loaded = load_paths([Path(file)] if file else (), vary)
     except (NoCasesError, OSError) as error:
         raise UsageError(str(error)) from error
-    found = _named(case_id, loaded)
+    found = _named(case_id, loaded) if case_id else _only(file, loaded)
     if found is None:
-        raise _no_case(case_id, f"in {file}" if file else "among the built-in cases", loaded)
+        where, others = (f"in {file}", "") if file else ("among the built-in cases", _OTHERS)
+        hints = f"{_hint(case_id, loaded)}{_mistakes(loaded)}{others}"
+        raise UsageError(f"no case {case_id!r} {where}.{hints}")
     return found
 
 
@@ -66,10 +79,21 @@ def _named(case_id: str, loaded: Loaded) -> Case | None:
     return next((case for case in loaded.cases if case.id == case_id), None)
 
 
-def _no_case(case_id: str, where: str, loaded: Loaded) -> UsageError:
-    wrong = f" {len(loaded.problems)} mistakes keep cases from loading, see `conformance lint`."
-    hint = _hint(case_id, [case.id for case in loaded.cases])
-    return UsageError(f"no case {case_id!r} {where}.{hint}{wrong if loaded.problems else ''}")
+def _only(file: str, loaded: Loaded) -> Case:
+    if len(loaded.cases) == 1:
+        return loaded.cases[0]
+    named = "".join(f"\n  {file}{_SEPARATOR}{case.id}" for case in loaded.cases)
+    raise UsageError(f"{file} holds {len(loaded.cases)} cases, expected one.{_mistakes(loaded)}{named}")
+
+
+def _hint(case_id: str, loaded: Loaded) -> str:
+    nearest = get_close_matches(case_id, [case.id for case in loaded.cases], n=1)
+    return f" Did you mean {nearest[0]!r}?" if nearest else ""
+
+
+def _mistakes(loaded: Loaded) -> str:
+    count = len(loaded.problems)
+    return f" {count} mistakes keep cases from loading, see `conformance lint`." if count else ""
 
 
 def query_of(case: Case, pose: int) -> Query:
@@ -77,11 +101,6 @@ def query_of(case: Case, pose: int) -> Query:
     if pose >= len(case.queries):
         raise UsageError(f"{case.id} has {len(case.queries) - 1} random poses, there is no pose {pose}")
     return case.queries[pose]
-
-
-def _hint(name: str, known: Collection[str]) -> str:
-    nearest = get_close_matches(name, list(known), n=1)
-    return f" Did you mean {nearest[0]!r}?" if nearest else ""
 
 
 def ending(outcome: Outcome) -> tuple[str, int]:

@@ -34,6 +34,8 @@ def lines(tally: Tally, campaign: Campaign, plan: Plan, identity: Identity) -> I
         yield f"  {candidate} does not stop properly: {complaint}: {count:,} times"
     for kind, failing in sorted(tally.failing.items(), key=lambda item: -item[1].count):
         yield from _failing(kind, failing, plan, candidate)
+    if campaign.kinds_left:
+        yield f"only counted, because enough others came before: {campaign.kinds_left}; mend those first"
     yield from campaign.notes
     if not identity.candidate_digest:
         yield "a change of the candidate would not be noticed: --candidate-digest says what it is"

@@ -105,6 +105,11 @@ class Campaign:
         self._wanted: set[FailureKind] = set()
         self._waiting: dict[Future[Any], Task] = {}
 
+    @property
+    def kinds_left(self) -> int:
+        """How many kinds of failure are only counted, because `MOST_KEPT` others came before them."""
+        return len(self._journal.tally.failing) - len(self._wanted)
+
     def run(self) -> None:
         """Ask every shard that the journal does not have, until all are done or the time is up.
 

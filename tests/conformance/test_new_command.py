@@ -135,9 +135,11 @@ def test_an_id_of_a_neighbour_is_taken(tmp_path: Path, capsys: pytest.CaptureFix
 
 
 def test_a_file_of_several_cases_must_be_told_which(capsys: pytest.CaptureFixture[str]) -> None:
-    """The message says how."""
-    assert new("mine", "--like", str(BUILT_IN_CASES / "contact-plane" / "origin.yaml")) == exit_codes.USAGE
-    assert "::ID" in capsys.readouterr().err
+    """The message has them, ready to be copied."""
+    file = BUILT_IN_CASES / "contact-plane" / "origin.yaml"
+    assert new("mine", "--like", str(file)) == exit_codes.USAGE
+    *_, first, second = capsys.readouterr().err.splitlines()
+    assert (first, second) == (f"  {file}::{ORIGIN}", f"  {file}::origin-step-down-short")
 
 
 @pytest.mark.parametrize("name", ["walks/standstill.yaml", "objects/shapes.yaml", "worlds/rooms.yaml"])

@@ -63,6 +63,8 @@ def test_a_wrong_engine_is_red(tmp_path: Path, capsys: pytest.CaptureFixture[str
     (case,) = (tmp_path / "found").iterdir()
     assert f'  rerun: pytest "{case}" --cases "{case}" --candidate mod:soak_engines:Faulty' in said
     assert "  not kept as a case" in said
+    kinds = said.count("  first in shard ")
+    assert f"only counted, because enough others came before: {kinds - 1}; mend those first" in said
     assert "  skipped: mod:soak_engines:Faulty: no trees: " in said
     kept = [failure["case"] for failure in written(tmp_path)["failures"] if failure["case"]]
     assert kept == [case.name]

@@ -24,6 +24,7 @@ if TYPE_CHECKING:
     from conformance.case import Case
 
 ORIGIN = "origin-step-down-touching"
+ORIGIN_FILE = BUILT_IN_CASES / "contact-plane" / "origin.yaml"
 CELLAR = "walk-cellar-and-back"
 CASES = shipped_cases()
 MOST_TICKS = 170
@@ -85,11 +86,21 @@ def test_the_documents_show_what_is_printed(capsys: pytest.CaptureFixture[str]) 
 
 def test_a_case_of_a_file_in_a_pose(capsys: pytest.CaptureFixture[str]) -> None:
     """FILE::ID names a case of any file; --pose picks a variant; --foot tells where the mover was."""
-    file = BUILT_IN_CASES / "contact-plane" / "origin.yaml"
-    code, lines, _ = run(capsys, "trace", f"{file}::{ORIGIN}", "--pose", 2, "--trace", "cp-write", "--foot")
+    code, lines, _ = run(
+        capsys, "trace", f"{ORIGIN_FILE}::{ORIGIN}", "--pose", 2, "--trace", "cp-write", "--foot"
+    )
     assert code == 0
     assert lines[0] == "origin-step-down-touching[pose 2] (find_collisions, oracle)"
     assert all(" foot=(" in line for line in lines if line.startswith("[cp-write]"))
+
+
+def test_the_only_case_of_a_file_needs_no_name(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    """As a found failure is: the file says which."""
+    file = tmp_path / "found.yaml"
+    code, _, _ = run(capsys, "new", "my-floor", "--like", ORIGIN, "-o", file)
+    assert code == 0
+    code, lines, _ = run(capsys, "trace", file)
+    assert (code, lines[0]) == (0, "my-floor (find_collisions, oracle)")
 
 
 def test_a_case_that_writes_nothing(capsys: pytest.CaptureFixture[str]) -> None:
@@ -102,6 +113,9 @@ def test_a_case_that_writes_nothing(capsys: pytest.CaptureFixture[str]) -> None:
     ("arguments", "complaint"),
     [
         ([f"{ORIGIN}x"], f"no case '{ORIGIN}x' among the built-in cases. Did you mean '{ORIGIN}'?"),
+        (["my-ramp"], "no case 'my-ramp' among the built-in cases. A case of another file is FILE::ID."),
+        (["nowhere.yaml"], "nowhere.yaml does not exist"),
+        ([str(ORIGIN_FILE)], f"cases, expected one.\n  {ORIGIN_FILE}::{ORIGIN}\n"),
         ([ORIGIN, "--trace", "cp-wrte"], "unknown topic 'cp-wrte'. Did you mean 'cp-write'? There are: "),
         ([ORIGIN, "--pose", "99"], f"{ORIGIN} has 8 random poses, there is no pose 99"),
         ([ORIGIN, "--candidate", "bug:cel-origin"], "Did you mean 'bug:cell-origin'?"),
