@@ -184,8 +184,8 @@ def _flatten_polygons(points: Array, polygons: Sequence[Sequence[int]], name: st
 
 def _record_size(num_vertices: int) -> int:
     """Return the length of a polygon's record."""
-    blocks = -(-num_vertices // SIDES)
-    size = POLYGON_CORNERS + (CORNER_SIZE + EDGE_SIZE) * num_vertices + SIDES_SIZE * blocks
+    more_sides = SIDES_SIZE * (max(num_vertices - 1, 0) // SIDES)
+    size = POLYGON_CORNERS + (CORNER_SIZE + EDGE_SIZE) * num_vertices + more_sides
     return int(size + -size % POLYGON_ALIGNMENT)
 
 

@@ -88,8 +88,9 @@ def _off(shape: Shape, counts: Ints, count: int) -> float:
 def _side_normals(records: Array, first: Ints, count: int) -> Array:
     """Return the in-plane normals of PP-2, of polygons with `count` edges, shape (n, count, 3)."""
     k = np.arange(count)
-    sides = at.POLYGON_CORNERS + (at.CORNER_SIZE + at.EDGE_SIZE) * count
-    places = sides + at.SIDES_SIZE * (k // at.SIDES) + k % at.SIDES + at.SIDE_NORMAL
+    more = at.POLYGON_CORNERS + (at.CORNER_SIZE + at.EDGE_SIZE) * count
+    block = np.where(k < at.SIDES, at.POLYGON_SIDES, more + at.SIDES_SIZE * (k // at.SIDES - 1))
+    places = block + k % at.SIDES + at.SIDE_NORMAL
     normals: Array = records[
         first[:, None, None] + places[:, None] + at.SIDES * np.arange(int(at.VECTOR_SIZE))
     ]

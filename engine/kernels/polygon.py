@@ -13,11 +13,11 @@ from engine.constants import EPS
 from engine.kernels.compile import entry, inlined, inlined_entry
 from engine.kernels.indexing import unsigned
 from engine.kernels.polygon_edges import BEYOND, HIT, MISS, any_edge_near, disc_touches
-from engine.kernels.polygon_record import corner, sides
+from engine.kernels.polygon_record import corner, more_sides
 from engine.kernels.rounding import f32, slack
 from engine.kernels.sides import sides_outside
 from engine.kernels.vector import dot_x
-from engine.layout import POLYGON_CONVEX, POLYGON_COUNT, SIDES, SIDES_SIZE
+from engine.layout import POLYGON_CONVEX, POLYGON_COUNT, POLYGON_SIDES, SIDES, SIDES_SIZE
 
 if TYPE_CHECKING:
     from engine.kernels.types import Array, Vector
@@ -110,10 +110,10 @@ def _outside(wf: Array, p: int, x: float, y: float, z: float, far: float) -> int
 
     retail: PP-1...PP-3
     """
+    found = sides_outside(wf, p + POLYGON_SIDES, x, y, z, far)
     n = int(wf[unsigned(p + POLYGON_COUNT)])
-    at = sides(p, n)
-    found = 0
-    for _ in range(0, n, SIDES):
+    at = more_sides(p, n)
+    for _ in range(SIDES, n, SIDES):
         found |= sides_outside(wf, at, x, y, z, far)
         at += SIDES_SIZE
     return found

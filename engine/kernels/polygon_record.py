@@ -20,6 +20,7 @@ from engine.layout import (
     EDGE_SQUARED,
     POLYGON_CORNERS,
     POLYGON_COUNT,
+    POLYGON_SIDES,
     SIDE_FAR,
     SIDE_NORMAL,
     SIDES,
@@ -44,9 +45,17 @@ def edge(p: int, n: int, k: int) -> int:
 
 
 @inlined
-def sides(p: int, n: int) -> int:
-    """Return where the blocks of sides begin of the polygon at `p`, which has n vertices."""
+def more_sides(p: int, n: int) -> int:
+    """Return where the second block of sides begins of the polygon at `p`, which has n vertices."""
     return p + POLYGON_CORNERS + (CORNER_SIZE + EDGE_SIZE) * n
+
+
+@inlined
+def _side(p: int, n: int, k: int) -> int:
+    """Return where side k has its place in its block, of the polygon at `p`, which has n vertices."""
+    if k < SIDES:
+        return p + POLYGON_SIDES + k
+    return more_sides(p, n) + SIDES_SIZE * (k // SIDES - 1) + k % SIDES
 
 
 @entry
@@ -60,7 +69,7 @@ def polygon_make_edges(wf: Array, p: int) -> None:
         at = corner(p, k)
         following = corner(p, (k + 1) % n)
         _make_edge(wf, p, at, following, edge(p, n, k))
-        side = sides(p, n) + SIDES_SIZE * (k // SIDES) + k % SIDES
+        side = _side(p, n, k)
         _make_side(wf, p, at, following, side)
         wf[side + SIDE_FAR] = wf[edge(p, n, k) + EDGE_NORMAL_SQUARED]
 

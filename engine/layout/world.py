@@ -88,11 +88,22 @@ POLYGON_ID: Final = frozen(5)
 POLYGON_SHAPE: Final = frozen(6)
 POLYGON_CONVEX: Final = frozen(7)
 """1 if it is convex, and flat and fat as well (`engine.compiling.balls.bounding_balls`), else 0."""
-POLYGON_CORNERS: Final = frozen(8)
-"""A polygon record: plane, number of vertices, its id, its shape's index, whether it is convex, corners,
-edges, sides; padded to `POLYGON_ALIGNMENT`."""
+POLYGON_SIDES: Final = frozen(8)
+"""A polygon record: plane, number of vertices, its id, its shape's index, whether it is convex; the first
+block of sides, corners, edges, and the other blocks of sides. Padded to `POLYGON_ALIGNMENT`.
+
+What rules out most polygons is the plane, and most others the first block: what is read comes first."""
 POLYGON_ALIGNMENT: Final = frozen(8)
-"""Numbers in a cache line: the plane, by which most polygons are ruled out, is in one."""
+"""Numbers in a cache line: the plane is in one."""
+SIDES: Final = frozen(4)
+"""Edges in a block of sides."""
+SIDE_NORMAL: Final = frozen(3 * SIDES)
+SIDE_FAR: Final = frozen(6 * SIDES)
+SIDES_SIZE: Final = frozen(7 * SIDES)
+"""In blocks of `SIDES` edges, what PP-2 computes without the point: the x of the vertices that they begin at,
+then y and z, the same of their in-plane normals as PP-2 rounds them, and the squared lengths of
+`EDGE_NORMAL_SQUARED`. What is left of the last block is zeros, which no point is outside of."""
+POLYGON_CORNERS: Final = frozen(POLYGON_SIDES + SIDES_SIZE)
 CORNER_SIZE: Final = frozen(3)
 """A vertex x y z."""
 EDGE_SIZE: Final = frozen(8)
@@ -101,14 +112,6 @@ the edge x y z, its in-plane normal x y z, and the squared lengths of the normal
 EDGE_NORMAL: Final = frozen(3)
 EDGE_NORMAL_SQUARED: Final = frozen(6)
 EDGE_SQUARED: Final = frozen(7)
-SIDES: Final = frozen(4)
-"""Edges in a block of sides."""
-SIDE_NORMAL: Final = frozen(3 * SIDES)
-SIDE_FAR: Final = frozen(6 * SIDES)
-SIDES_SIZE: Final = frozen(7 * SIDES)
-"""Behind the edges, in blocks of `SIDES` of them, what PP-2 computes without the point: the x of the vertices
-that they begin at, then y and z, the same of their in-plane normals as PP-2 rounds them, and the squared
-lengths of `EDGE_NORMAL_SQUARED`. What is left of the last block is zeros, which no point is outside of."""
 
 _header = Row()
 
@@ -186,7 +189,7 @@ NO_PORTALS: Final = frozen(-1)
 """Portal count of a cell without a portal array, which contains no point (09, 4.1)."""
 NO_BUILDING: Final = frozen(-1)
 
-TERRAIN_POLYGON: Final = POLYGON_CORNERS + 3 * (CORNER_SIZE + EDGE_SIZE) + SIDES_SIZE
+TERRAIN_POLYGON: Final = POLYGON_CORNERS + 3 * (CORNER_SIZE + EDGE_SIZE)
 """Size of a triangle's record."""
 LAND_CELLS: Final = frozen(64)
 """Land cells of a block; cell 8 * i + j lies in column i from the west, row j from the south."""

@@ -13,7 +13,7 @@ from engine import Leaf, Shape
 from engine.kernels.polygon import polygon_hits_sphere, polygon_point_in_polygon
 from engine.kernels.polygon_edges import BEYOND, HIT, MISS
 from engine.kernels.polygon_support import polygon_find_crossed_edge
-from engine.layout import CORNER_SIZE, EDGE_SIZE, POLYGON_CORNERS, SIDES, SIDES_SIZE
+from engine.layout import CORNER_SIZE, POLYGON_CORNERS, POLYGON_SIDES, SIDES, SIDES_SIZE
 
 if TYPE_CHECKING:
     from engine.kernels.types import Array
@@ -135,7 +135,7 @@ def test_corners_are_the_vertices_in_order() -> None:
 def test_sides_are_the_vertices_and_normals_of_the_edges_side_by_side() -> None:
     """With the normals' squared lengths; the last block of a triangle ends with an edge that is nowhere."""
     wf = record([(0, 0, 0), (2, 0, 0), (0, 3, 0)])
-    block = wf[POLYGON_CORNERS + 3 * (CORNER_SIZE + EDGE_SIZE) :][:SIDES_SIZE].reshape(-1, SIDES)
+    block = wf[POLYGON_SIDES:][:SIDES_SIZE].reshape(-1, SIDES)
     assert block[:3].T.tolist() == [[0, 0, 0], [2, 0, 0], [0, 3, 0], [0, 0, 0]]
     assert block[3:6].T.tolist() == [[0, 2, 0], [-3, -2, 0], [3, 0, 0], [0, 0, 0]]
     assert block[6].tolist() == [4, 13, 9, 0]
