@@ -93,7 +93,8 @@ def main(argv: Sequence[str] | None = None) -> int:
         return _give_up(args.command, "broken off", exit_codes.BROKEN_OFF)
     except OSError as error:
         _silence_closed_pipe()
-        return _give_up(args.command, str(error), exit_codes.CANNOT_WRITE)
+        reason = f"cannot write {error.filename}: {error.strerror}" if error.filename else str(error)
+        return _give_up(args.command, reason, exit_codes.CANNOT_WRITE)
     return code
 
 

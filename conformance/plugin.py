@@ -12,6 +12,7 @@ from typing import TYPE_CHECKING, Any, Final
 
 import pytest
 
+from conformance.option_types import positive, whole_from
 from conformance.summary import Counts
 
 if TYPE_CHECKING:
@@ -59,7 +60,7 @@ def pytest_addoption(parser: pytest.Parser) -> None:
     )
     group.addoption(
         "--read-timeout",
-        type=float,
+        type=positive("seconds"),
         metavar="SECONDS",
         help="within which a cmd: engine must reply, or be started anew (default: 30)",
     )
@@ -81,7 +82,9 @@ def pytest_addoption(parser: pytest.Parser) -> None:
         help="how the candidate is known to differ from retail: a file, or the name of an engine that the "
         "suite knows (default: the candidate's own, if it has one)",
     )
-    group.addoption("--poses", type=int, metavar="N", help="random poses in which to run each scene case")
+    group.addoption(
+        "--poses", type=whole_from(0), metavar="N", help="random poses in which to run each scene case"
+    )
     group.addoption("--pose-seed", type=int, metavar="N", help="seed of the random poses")
     group.addoption(
         "--trace-writes",
@@ -145,9 +148,6 @@ def _check_candidate(config: pytest.Config) -> None:
             check_spec(spec)
         except (BadCandidateError, MissingExtraError, UnknownCandidateError) as error:
             raise pytest.UsageError(f"--candidate: {error}") from error
-    seconds = config.getoption("--read-timeout", None)
-    if seconds is not None and not 0.0 < seconds < float("inf"):
-        raise pytest.UsageError(f"--read-timeout: found {seconds}, expected seconds, more than 0")
 
 
 def _check_topics(config: pytest.Config) -> None:

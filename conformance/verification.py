@@ -54,6 +54,8 @@ class Tally:
         Records the candidate does not do, by its reason.
     failures : list of Failure
         Every failure, in file order.
+    chosen : set of str
+        Ids of the records that were chosen by their ids and are there.
     """
 
     passed: int = 0
@@ -62,6 +64,7 @@ class Tally:
     advisory_agreeing: int = 0
     skipped: Counter[str] = field(default_factory=Counter)
     failures: list[Failure] = field(default_factory=list)
+    chosen: set[str] = field(default_factory=set)
 
     @property
     def compared(self) -> int:
@@ -75,6 +78,7 @@ class Tally:
         self.advisory += other.advisory
         self.advisory_agreeing += other.advisory_agreeing
         self.skipped += other.skipped
+        self.chosen |= other.chosen
 
     def fail(self, failure: Failure) -> None:
         """Count one failure."""
@@ -135,6 +139,7 @@ def verify_file(
             progress.say(f"{path.name}: {count} records, {tally.failed} failed")
         count += len(batch)
         asked = [item for item in batch if not only or _id_of(item) in only]
+        tally.chosen.update(name for item in asked if only and (name := _id_of(item)))
         ask_ahead(candidate, [item.query for item in asked if isinstance(item, VectorRecord)])
         for item in asked:
             if isinstance(item, VectorError):

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import argparse
 import json
 from difflib import get_close_matches
 from pathlib import Path
@@ -10,8 +9,11 @@ from typing import TYPE_CHECKING, Final
 
 from conformance import exit_codes
 from conformance.commands.options import UsageError
+from conformance.option_types import whole_from
 
 if TYPE_CHECKING:
+    import argparse
+
     from conformance.bug_hunt import Record
     from conformance.candidates.bug_candidate import KnownBug
 
@@ -33,7 +35,7 @@ def configure(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("--list", action="store_true", help="only list them")
     parser.add_argument(
         "--draws",
-        type=_positive,
+        type=whole_from(1),
         default=_DRAWS,
         metavar="N",
         help="random queries of each family (default: %(default)s)",
@@ -61,13 +63,6 @@ def run(args: argparse.Namespace) -> int:
     if not whole:
         return exit_codes.BROKEN_OFF
     return exit_codes.FAILURES if any(record.unexplained for record in records) else exit_codes.OK
-
-
-def _positive(text: str) -> int:
-    number = int(text)
-    if number < 1:
-        raise argparse.ArgumentTypeError(f"{number} is not a number of draws")
-    return number
 
 
 def _chosen(names: list[str]) -> list[KnownBug]:

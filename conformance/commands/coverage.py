@@ -2,14 +2,15 @@
 
 from __future__ import annotations
 
-import argparse
 from pathlib import Path
 from typing import TYPE_CHECKING, Final
 
 from conformance import exit_codes
 from conformance.commands.options import UsageError
+from conformance.option_types import whole_from
 
 if TYPE_CHECKING:
+    import argparse
     from collections.abc import Callable
 
     from rich.console import Console
@@ -42,11 +43,14 @@ def configure(parser: argparse.ArgumentParser) -> None:
     """Add the command's arguments."""
     options = parser.add_argument_group("what is measured", _RULE)
     options.add_argument(
-        "--poses", type=_count, metavar="N", help="random poses per case (default: what each case says)"
+        "--poses",
+        type=whole_from(0),
+        metavar="N",
+        help="random poses per case (default: what each case says)",
     )
     options.add_argument(
         "--draws",
-        type=_count,
+        type=whole_from(0),
         default=0,
         metavar="N",
         help="also ask N random queries of each family, and count what they reach (default: %(default)s)",
@@ -84,13 +88,6 @@ def run(args: argparse.Namespace) -> int:
         return exit_codes.NOTHING_RAN
     open_gaps = [gap for gap in found if not gap.reason]
     return exit_codes.FAILURES if mistakes or open_gaps else exit_codes.OK
-
-
-def _count(text: str) -> int:
-    number = int(text)
-    if number < 0:
-        raise argparse.ArgumentTypeError(f"{number} is not a count")
-    return number
 
 
 def _cases(poses: int | None) -> tuple[Case, ...]:

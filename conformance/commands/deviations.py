@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Final
 
 from conformance import exit_codes
 from conformance.commands.options import UsageError, add_candidate_option, candidate_from
+from conformance.option_types import whole_from
 
 if TYPE_CHECKING:
     import argparse
@@ -49,7 +50,9 @@ def configure(parser: argparse.ArgumentParser) -> None:
         metavar="PATH",
         help="files or folders of cases to ask (repeatable; default: the built-in cases)",
     )
-    parser.add_argument("--poses", type=int, metavar="N", help="random poses in which to ask each scene case")
+    parser.add_argument(
+        "--poses", type=whole_from(0), metavar="N", help="random poses in which to ask each scene case"
+    )
     parser.add_argument("-o", "--output", type=Path, metavar="FILE", help="write the draft there")
 
 
@@ -113,8 +116,6 @@ def _suggest(args: argparse.Namespace) -> int:
 def _cases(args: argparse.Namespace) -> tuple[Case, ...]:
     from conformance.loader import NoCasesError, Vary, load_paths
 
-    if args.poses is not None and args.poses < 0:
-        raise UsageError(f"--poses {args.poses}: expected 0 or more")
     try:
         loaded = load_paths(args.cases, Vary(poses=args.poses))
     except NoCasesError as error:

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Final
 
 from conformance import exit_codes
 from conformance.commands.options import UsageError
+from conformance.option_types import whole_from
 
 if TYPE_CHECKING:
     import argparse
@@ -36,7 +37,11 @@ def configure(parser: argparse.ArgumentParser) -> None:
         "files", nargs="*", type=Path, metavar="FILE", help="vector files (default: random queries)"
     )
     parser.add_argument(
-        "--draws", type=int, default=_DRAWS, metavar="N", help="random queries (default: %(default)s)"
+        "--draws",
+        type=whole_from(1),
+        default=_DRAWS,
+        metavar="N",
+        help="random queries (default: %(default)s)",
     )
     parser.add_argument(
         "--family",

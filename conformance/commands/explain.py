@@ -2,14 +2,15 @@
 
 from __future__ import annotations
 
-import argparse
 import textwrap
 from typing import TYPE_CHECKING, Final
 
 from conformance.commands.one_case import add_case, add_pose, ending, find_case, query_of
 from conformance.commands.options import UsageError
+from conformance.option_types import whole_from
 
 if TYPE_CHECKING:
+    import argparse
     from collections.abc import Iterator
 
     from conformance.case import Case
@@ -31,9 +32,14 @@ def configure(parser: argparse.ArgumentParser) -> None:
     add_case(parser)
     add_pose(parser)
     parser.add_argument(
-        "--tick", type=_tick, metavar="N", help="the tick of a walk, from 0; a walk is told tick by tick"
+        "--tick",
+        type=whole_from(0),
+        metavar="N",
+        help="the tick of a walk, from 0; a walk is told tick by tick",
     )
-    parser.add_argument("--depth", type=_depth, metavar="N", help="levels of calls to show (default: all)")
+    parser.add_argument(
+        "--depth", type=whole_from(1), metavar="N", help="levels of calls to show (default: all)"
+    )
 
 
 def run(args: argparse.Namespace) -> int:
@@ -54,20 +60,6 @@ def run(args: argparse.Namespace) -> int:
     text, code = ending(explanation.outcome)
     console.print(text)
     return code
-
-
-def _tick(text: str) -> int:
-    number = int(text)
-    if number < 0:
-        raise argparse.ArgumentTypeError(f"{number} is not the number of a tick")
-    return number
-
-
-def _depth(text: str) -> int:
-    number = int(text)
-    if number < 1:
-        raise argparse.ArgumentTypeError(f"found {number}, expected at least 1 level")
-    return number
 
 
 def _introduction(case: Case, query: Query) -> Iterator[str]:

@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Final
 
 from conformance import exit_codes
 from conformance.commands.options import UsageError
+from conformance.option_types import whole_from
 
 if TYPE_CHECKING:
     import argparse
@@ -36,7 +37,10 @@ def configure(parser: argparse.ArgumentParser) -> None:
         "-o", "--output", type=Path, required=True, metavar="FILE", help="the JSON-lines file to write"
     )
     parser.add_argument(
-        "--poses", type=int, metavar="N", help="random poses per case (default: what each case says)"
+        "--poses",
+        type=whole_from(0),
+        metavar="N",
+        help="random poses per case (default: what each case says)",
     )
 
 

@@ -2,15 +2,17 @@
 
 from __future__ import annotations
 
-import argparse
 import tempfile
 from pathlib import Path
 from typing import TYPE_CHECKING, Final
 
 from conformance import exit_codes
 from conformance.commands.options import UsageError
+from conformance.option_types import whole_from
 
 if TYPE_CHECKING:
+    import argparse
+
     from conformance.fuzz.session import Report
     from conformance.fuzz.targets import Target
 
@@ -41,9 +43,11 @@ def configure(parser: argparse.ArgumentParser) -> None:
     options = parser.add_argument_group("what is fuzzed", _RULE)
     options.add_argument("target", choices=("yaml", "vectors", "world"), help="which reader")
     options.add_argument(
-        "--runs", type=_positive, default=_RUNS, metavar="N", help="executions (default: %(default)s)"
+        "--runs", type=whole_from(1), default=_RUNS, metavar="N", help="executions (default: %(default)s)"
     )
-    options.add_argument("--seed", type=_positive, metavar="N", help="of the choices (default: a new one)")
+    options.add_argument(
+        "--seed", type=whole_from(1), metavar="N", help="of the choices (default: a new one)"
+    )
     options.add_argument(
         "--findings", type=Path, default=_FINDINGS, metavar="DIR", help="where failing inputs are kept"
     )
@@ -59,13 +63,6 @@ def run(args: argparse.Namespace) -> int:
 
     target = TARGETS[args.target]
     return _replay(target, args.replay) if args.replay else _fuzz(target, args)
-
-
-def _positive(text: str) -> int:
-    number = int(text)
-    if number < 1:
-        raise argparse.ArgumentTypeError(f"{number} is not greater than 0")
-    return number
 
 
 def _replay(target: Target, files: list[Path]) -> int:

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import argparse
 import random
 import sys
 from pathlib import Path
@@ -10,8 +9,10 @@ from typing import TYPE_CHECKING, Final
 
 from conformance import exit_codes
 from conformance.commands.options import UsageError, check_jobs
+from conformance.option_types import whole_from
 
 if TYPE_CHECKING:
+    import argparse
     from collections.abc import Sequence
 
     from conformance.mutation.equivalents import Entry
@@ -60,11 +61,11 @@ def configure(parser: argparse.ArgumentParser) -> None:
         metavar="NN",
         help="documents whose functions are mutated (default: 02 03 04 05)",
     )
-    options.add_argument("--sample", type=_count, metavar="N", help="only N mutants, drawn at random")
+    options.add_argument("--sample", type=whole_from(1), metavar="N", help="only N mutants, drawn at random")
     options.add_argument("--seed", type=int, default=0, help="of the drawing (default: %(default)s)")
     options.add_argument("--list", action="store_true", help="only list the mutants")
     options.add_argument(
-        "--jobs", type=_count, default=1, metavar="N", help="processes (default: %(default)s)"
+        "--jobs", type=whole_from(1), default=1, metavar="N", help="processes (default: %(default)s)"
     )
     options.add_argument(
         "--journal", type=Path, default=_JOURNAL, metavar="FILE", help="findings (default: %(default)s)"
@@ -100,13 +101,6 @@ def run(args: argparse.Namespace) -> int:
     findings = _judged(work, plans)
     mistakes = _mistakes(entries, [plan.mutant for plan in plans], findings, whole=not args.documents)
     return _report(_scores(entries, findings), mistakes, args)
-
-
-def _count(text: str) -> int:
-    number = int(text)
-    if number < 1:
-        raise argparse.ArgumentTypeError(f"{number} is not a count")
-    return number
 
 
 def _chosen(plans: Sequence[Plan], args: argparse.Namespace) -> tuple[int, ...]:

@@ -2,15 +2,17 @@
 
 from __future__ import annotations
 
-import argparse
 from difflib import get_close_matches
 from pathlib import Path
 from typing import TYPE_CHECKING, Final
 
 from conformance import exit_codes
 from conformance.commands.options import UsageError
+from conformance.option_types import whole_from
 
 if TYPE_CHECKING:
+    import argparse
+
     from conformance.case import Case, Loaded, Vary
     from conformance.query import Outcome, Query
 
@@ -31,19 +33,11 @@ def add_pose(parser: argparse.ArgumentParser) -> None:
     """Add the option ``--pose``, for `query_of`."""
     parser.add_argument(
         "--pose",
-        type=pose_number,
+        type=whole_from(0),
         default=0,
         metavar="N",
         help="the case in its Nth random pose (default: 0, as written)",
     )
-
-
-def pose_number(text: str) -> int:
-    """Read the number of a pose."""
-    number = int(text)
-    if number < 0:
-        raise argparse.ArgumentTypeError(f"{number} is not the number of a pose")
-    return number
 
 
 def find_case(text: str, vary: Vary | None = None) -> Case:

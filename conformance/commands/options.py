@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
-import argparse
-import math
 from typing import TYPE_CHECKING
 
+from conformance.option_types import positive
+
 if TYPE_CHECKING:
+    import argparse
+
     from conformance.candidates.base import Candidate
 
 
@@ -26,7 +28,7 @@ def add_candidate_option(parser: argparse.ArgumentParser, *, default: str) -> No
     )
     parser.add_argument(
         "--read-timeout",
-        type=positive_seconds,
+        type=positive("seconds"),
         metavar="SECONDS",
         help="within which a cmd: engine must reply, or be started anew (default: 30)",
     )
@@ -53,11 +55,3 @@ def candidate_from(args: argparse.Namespace) -> Candidate:
         return make_candidate(args.candidate, read_timeout=args.read_timeout)
     except (BadCandidateError, MissingExtraError, UnknownCandidateError) as error:
         raise UsageError(str(error)) from error
-
-
-def positive_seconds(text: str) -> float:
-    """Read a time, which may not be endless: an engine that hangs must be noticed."""
-    seconds = float(text)
-    if not (0.0 < seconds < math.inf):
-        raise argparse.ArgumentTypeError(f"found {text}, expected seconds, more than 0")
-    return seconds

@@ -8,8 +8,9 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Final
 
 from conformance import exit_codes
-from conformance.commands.one_case import find_case, pose_number
+from conformance.commands.one_case import find_case
 from conformance.commands.options import UsageError, add_candidate_option, candidate_from
+from conformance.option_types import whole_from
 
 if TYPE_CHECKING:
     import argparse
@@ -48,7 +49,7 @@ def configure(parser: argparse.ArgumentParser) -> None:
     )
     parser.add_argument(
         "--poses",
-        type=pose_number,
+        type=whole_from(0),
         metavar="N",
         help="ask each case in N random poses besides as written (default: as many as the case says)",
     )

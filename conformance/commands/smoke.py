@@ -6,7 +6,8 @@ import argparse
 from typing import TYPE_CHECKING, Final
 
 from conformance import exit_codes
-from conformance.commands.options import UsageError, positive_seconds
+from conformance.commands.options import UsageError
+from conformance.option_types import positive
 
 if TYPE_CHECKING:
     from rich.console import Console
@@ -28,7 +29,7 @@ def configure(parser: argparse.ArgumentParser) -> None:
     """Add the command's arguments."""
     parser.add_argument(
         "--read-timeout",
-        type=positive_seconds,
+        type=positive("seconds"),
         default=_SECONDS,
         metavar="SECONDS",
         help="within which the engine must reply (default: %(default)s)",

@@ -2,15 +2,17 @@
 
 from __future__ import annotations
 
-import argparse
 import math
 from pathlib import Path
 from typing import TYPE_CHECKING, Final, NamedTuple
 
 from conformance import exit_codes
 from conformance.commands.options import UsageError, add_candidate_option, check_jobs
+from conformance.option_types import positive, whole_from
 
 if TYPE_CHECKING:
+    import argparse
+
     from conformance.soak.campaign import Campaign, Plan
     from conformance.soak.crews import Crew
     from conformance.soak.journal import SoakJournal
@@ -51,7 +53,7 @@ def configure(parser: argparse.ArgumentParser) -> None:
     options = parser.add_argument_group("what is asked", _METHOD)
     options.add_argument(
         "--queries",
-        type=_count,
+        type=whole_from(1),
         required=True,
         metavar="N",
         help="how many, such as 1e7; rounded up to whole shards",
@@ -61,7 +63,11 @@ def configure(parser: argparse.ArgumentParser) -> None:
         "--family", action="append", default=[], metavar="NAME", help="only these queries (repeatable)"
     )
     options.add_argument(
-        "--shard-size", type=_count, default=_SHARD_SIZE, metavar="N", help="queries (default: %(default)s)"
+        "--shard-size",
+        type=whole_from(1),
+        default=_SHARD_SIZE,
+        metavar="N",
+        help="queries (default: %(default)s)",
     )
     add_candidate_option(parser, default="engine")
     options.add_argument(
@@ -83,14 +89,14 @@ def configure(parser: argparse.ArgumentParser) -> None:
     )
     options.add_argument("--resume", action="store_true", help="go on with what the journal holds")
     workers = parser.add_argument_group("who asks")
-    workers.add_argument("--jobs", type=_count, metavar="N", help="processes (default: 1)")
+    workers.add_argument("--jobs", type=whole_from(1), metavar="N", help="processes (default: 1)")
     workers.add_argument(
         "--scheduler",
         metavar="tcp://HOST:PORT",
         help="of a Dask cluster, whose workers ask instead (extra `cluster`)",
     )
     workers.add_argument(
-        "--minutes", type=_minutes, metavar="M", help="begin no further shard after this time"
+        "--minutes", type=positive("minutes"), metavar="M", help="begin no further shard after this time"
     )
 
 
@@ -154,21 +160,6 @@ def _exit_code(tally: Tally, ended: int) -> int:
     """Return how the command ends: what is known of the candidate counts more than what ended the run."""
     known = tally.exit_code
     return known if not ended or known in {exit_codes.FAILURES, exit_codes.BROKEN} else ended
-
-
-def _count(text: str) -> int:
-    """Read a number of things, which may be written as 1e7."""
-    number = float(text)
-    if not (1.0 <= number < math.inf and number.is_integer()):
-        raise argparse.ArgumentTypeError(f"found {text}, expected a whole number, 1 or more")
-    return int(number)
-
-
-def _minutes(text: str) -> float:
-    minutes = float(text)
-    if not (0.0 < minutes < math.inf):
-        raise argparse.ArgumentTypeError(f"found {text}, expected minutes, more than 0")
-    return minutes
 
 
 def _identity(args: argparse.Namespace) -> Identity:

@@ -87,7 +87,7 @@ def _read(path: Path, rule: Rule) -> LogReport:
         with _open(path) as stream:
             return read_log(bounded_lines(stream), rule)
     except OSError as error:
-        raise UsageError(f"cannot read {path}: {error}") from error
+        raise UsageError(f"cannot read {path}: {error.strerror or error}") from error
 
 
 def _open(path: Path) -> TextIO:

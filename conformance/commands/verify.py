@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Any, Final
 
 from conformance import exit_codes
 from conformance.commands.options import UsageError, add_candidate_option, candidate_from
+from conformance.option_types import whole_from
 
 if TYPE_CHECKING:
     import argparse
@@ -43,7 +44,7 @@ def configure(parser: argparse.ArgumentParser) -> None:
     )
     parser.add_argument(
         "--max-differences",
-        type=int,
+        type=whole_from(0),
         default=_SHOWN,
         metavar="N",
         help="explain the first N failing records of each file (default: %(default)s)",
@@ -52,7 +53,7 @@ def configure(parser: argparse.ArgumentParser) -> None:
 
 
 def run(args: argparse.Namespace) -> int:
-    """Verify every file and return the exit code: 1 on any failure, 4 when nothing was compared."""
+    """Verify every file and return the exit code: 1 on any failure, 4 if what was asked for is not there."""
     from conformance.console import make_console
 
     paths = _vector_files(args.files)
@@ -67,13 +68,16 @@ def run(args: argparse.Namespace) -> int:
         console.print(f"total: {total.summary()}", style=style)
         if not total.compared:
             console.print("nothing was compared", style="yellow")
+    missing = [name for name in args.id if name not in total.chosen] if whole else []
+    for name in missing:
+        sys.stderr.write(f"conformance verify: no record {name!r} in these files\n")
     if not whole:
         sys.stderr.write("conformance verify: broken off; this is what was compared so far\n")
     if total.failed:
         return exit_codes.FAILURES
     if not whole:
         return exit_codes.BROKEN_OFF
-    return exit_codes.OK if total.compared else exit_codes.NOTHING_RAN
+    return exit_codes.OK if total.compared and not missing else exit_codes.NOTHING_RAN
 
 
 def _vector_files(given: list[Path]) -> list[Path]:
@@ -83,7 +87,9 @@ def _vector_files(given: list[Path]) -> list[Path]:
     paths: list[Path] = []
     for path in given:
         if path.is_dir():
-            paths += sorted(p for p in path.glob("*.jsonl") if p.name not in shared)
+            paths += (found := sorted(p for p in path.glob("*.jsonl") if p.name not in shared))
+            if not found:
+                raise UsageError(f"no vector file (*.jsonl) in {path}")
         elif path.is_file():
             paths += [path] if path.name not in shared else []
         else:

@@ -109,13 +109,27 @@ def test_verify_counts_skips_by_reason(
 def test_verify_of_nothing_is_not_green(
     content: str, tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
-    """An empty file, an empty folder and an id that no record has compare nothing: 4."""
+    """An empty file and an id that no record has compare nothing: 4. So does an empty folder: a slip, 2."""
     path = tmp_path / "empty.jsonl"
     path.write_text(content, encoding="utf-8")
     assert run(capsys, "verify", path)[0] == 4
     path.unlink()
-    assert run(capsys, "verify", tmp_path)[0] == 4
+    assert cli.main(["verify", str(tmp_path)]) == 2
+    assert capsys.readouterr().err == f"conformance verify: no vector file (*.jsonl) in {tmp_path}\n"
     assert run(capsys, "verify", MATH, "--id", "nobody")[0] == 4
+
+
+def test_verify_misses_no_record_that_was_asked_for(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    """Each id is to be found in one of the files; which are not is said, and the run is not green."""
+    one, two = file_of(tmp_path / "a.jsonl", small("a")), file_of(tmp_path / "b.jsonl", small("b"))
+    chosen = ["verify", str(one), str(two), "--id", "a", "--id", "b"]
+    assert cli.main(chosen) == 0
+    assert cli.main([*chosen, "--id", "c"]) == 4
+    told = capsys.readouterr()
+    assert told.err == "conformance verify: no record 'c' in these files\n"
+    assert told.out.endswith("total: 2 passed, 0 failed, 0 skipped, 0 advisory\n")
 
 
 def test_verify_fails_on_bad_lines(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:

@@ -123,7 +123,7 @@ def test_a_level_of_nothing_is_refused(capsys: pytest.CaptureFixture[str]) -> No
     with pytest.raises(SystemExit) as ended:
         cli.main(["explain", ORIGIN, "--depth", "0"])
     assert ended.value.code == exit_codes.USAGE
-    assert "at least 1 level" in capsys.readouterr().err
+    assert "found 0, expected a whole number, 1 or more" in capsys.readouterr().err
 
 
 def test_watching_changes_nothing() -> None:

@@ -152,7 +152,7 @@ def test_the_suite_is_red_for_a_bad_stop(run: pytest.Pytester) -> None:
     [
         (["--candidate", "cmd: "], "*--candidate: found no command, expected a program*"),
         (["--candidate", "mod:x"], "*--candidate: found mod:x, expected mod:package.module:factory*"),
-        (["--read-timeout", "0"], "*--read-timeout: found 0.0, expected seconds, more than 0*"),
+        (["--read-timeout", "0"], "*--read-timeout: found 0, expected seconds, more than 0*"),
     ],
 )
 def test_bad_options_are_usage_errors(options: list[str], message: str, run: pytest.Pytester) -> None:
