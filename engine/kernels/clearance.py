@@ -32,57 +32,60 @@ if TYPE_CHECKING:
     from engine.kernels.types import Array, Bytes, Ints
 
 
-_NEXT_TO = 0o73652140
-"""Which cubes about a corner are looked at, one after the other: its bits, from the least, say whether
-it is the next one along x, y and z. Rooms are wider than high: a mover is farthest from a middle along z."""
+@inlined
+def _beside(u: float, i: int, count: int) -> int:
+    """Return the cube next to which a point of the i-th is, of so many along an axis; the i-th at the end."""
+    return min(max(i + (1 if u - i > 0.5 else -1), 0), count - 1)
 
 
 @inlined
-def _level(wf: Array, wi: Ints, g: int, cube: int) -> int:
-    """Return the level of a cube of the grid at `g`."""
-    word = wi[unsigned(int(wf[unsigned(g + CLEARANCE_LEVELS)]) + (cube >> CLEARANCE_SHIFT))]
-    return (word >> CLEARANCE_BITS * (cube & CLEARANCE_MASK)) & CLEARANCE_MOST
+def _off(edge: float, u: float, i: int) -> float:
+    """Return the square of how far a point is from the middle of the i-th cube, along an axis."""
+    away = edge * (u - i - 0.5)
+    return away * away
 
 
 @inlined
-def _side(u: float, i: int) -> int:
-    """Return on which side of the middle of the i-th cube a point is."""
-    return 1 if u - i > 0.5 else -1
+def _room(wi: Ints, levels: int, cube: int, step: float, r: float, squared: float) -> float:
+    """Return more than 0 if the clear ball about the middle of a cube holds a ball that is so far off."""
+    word = wi[unsigned(levels + (cube >> CLEARANCE_SHIFT))]
+    level = (word >> CLEARANCE_BITS * (cube & CLEARANCE_MASK)) & CLEARANCE_MOST
+    room = max(0.0, step * level - r)
+    return room * room - squared
 
 
-@kernel
+@inlined
 def known_clear(wf: Array, wi: Ints, cell: int, x: float, y: float, z: float, r: float) -> bool:
     """Say whether a ball, in an environment cell's own frame, is known to be clear of the cell's tree.
 
     It is if it lies inside the ball that was found clear about the middle of a cube: of the one that holds
-    its centre, or of the seven others about the corner that is next to it. Points outside the box are in
-    no cube, and NaN is nowhere. What is rounded here is less than a part in 2**45 of the size of the grid,
-    which the slack that balls are given for roundings to float32 is far above.
+    its centre, or of the three that are next to it beside that. Points outside the box are in no cube, and
+    NaN is nowhere. What is rounded here is less than a part in 2**45 of the size of the grid, which the
+    slack that balls are given for roundings to float32 is far above.
+
+    All four are looked at, without a branch: which of them will do nobody can foresee, and to have guessed
+    wrong takes longer than to look.
     """
-    g = wi[unsigned(wi[WORLD_CLEARANCES] + cell)]
+    g = unsigned(wi[unsigned(wi[WORLD_CLEARANCES] + cell)])
     if g == NO_CLEARANCE:
         return False
-    scale, corner, counts = wf[unsigned(g + CLEARANCE_PER_METRE)], g + CLEARANCE_CORNER, g + CLEARANCE_COUNTS
-    u = scale * (x - wf[unsigned(corner)])
-    v = scale * (y - wf[unsigned(corner + 1)])
-    w = scale * (z - wf[unsigned(corner + 2)])
-    nu, nv, nw = wf[unsigned(counts)], wf[unsigned(counts + 1)], wf[unsigned(counts + 2)]
+    scale = wf[g + CLEARANCE_PER_METRE]
+    u = scale * (x - wf[g + CLEARANCE_CORNER])
+    v = scale * (y - wf[g + CLEARANCE_CORNER + 1])
+    w = scale * (z - wf[g + CLEARANCE_CORNER + 2])
+    nu, nv, nw = wf[g + CLEARANCE_COUNTS], wf[g + CLEARANCE_COUNTS + 1], wf[g + CLEARANCE_COUNTS + 2]
     if not (0.0 <= u < nu and 0.0 <= v < nv and 0.0 <= w < nw):
         return False
-    edge, step = wf[unsigned(g + CLEARANCE_EDGE)], wf[unsigned(g + CLEARANCE_STEP)]
-    i, j, n = int(u), int(v), int(w)
-    for k in range(8):
-        other = _NEXT_TO >> 3 * k & 7
-        a = i + _side(u, i) * (other & 1)
-        b = j + _side(v, j) * (other >> 1 & 1)
-        c = n + _side(w, n) * (other >> 2)
-        if not (0 <= a < nu and 0 <= b < nv and 0 <= c < nw):
-            continue
-        room = step * _level(wf, wi, g, (a * int(nv) + b) * int(nw) + c) - r
-        dx, dy, dz = edge * (u - a - 0.5), edge * (v - b - 0.5), edge * (w - c - 0.5)
-        if room > 0.0 and dx * dx + dy * dy + dz * dz < room * room:
-            return True
-    return False
+    edge, step, levels = wf[g + CLEARANCE_EDGE], wf[g + CLEARANCE_STEP], int(wf[g + CLEARANCE_LEVELS])
+    i, j, k, ny, nz = int(u), int(v), int(w), int(nv), int(nw)
+    a, b, c = _beside(u, i, int(nu)), _beside(v, j, ny), _beside(w, k, nz)
+    dx, dy, dz = _off(edge, u, i), _off(edge, v, j), _off(edge, w, k)
+    column = (i * ny + j) * nz
+    own = _room(wi, levels, column + k, step, r, dx + dy + dz)
+    along_z = _room(wi, levels, column + c, step, r, dx + dy + _off(edge, w, c))
+    along_x = _room(wi, levels, (a * ny + j) * nz + k, step, r, _off(edge, u, a) + dy + dz)
+    along_y = _room(wi, levels, (i * ny + b) * nz + k, step, r, dx + _off(edge, v, b) + dz)
+    return max(own, along_z, along_x, along_y) > 0.0
 
 
 @entry

@@ -11,30 +11,31 @@ from typing import TYPE_CHECKING
 from engine.constants import CONTACT, EPS, EPS2, FLIGHT_STEPS, FREE_ROTATE, IS_VIEWER, ON_WALKABLE
 from engine.kernels.ahead import bring_near
 from engine.kernels.compile import inlined, kernel
-from engine.kernels.frame import frame_cache, frame_interpolate_rotation
-from engine.kernels.path import write_spheres
+from engine.kernels.frame import interpolated, is_unit, matrix_of, normalised
+from engine.kernels.path import placed
 from engine.kernels.plan import allows
-from engine.kernels.plan_flight import ball_about_way, cell_beyond, cell_holds, is_flown_through, turns
-from engine.kernels.position import position_get_offset
-from engine.kernels.query import init_spheres, load_pose
+from engine.kernels.plan_flight import (
+    ball_about_way,
+    cell_holds,
+    is_clear,
+    is_flown_through,
+    is_known_clear,
+    opens_about,
+)
+from engine.kernels.position import offset_between
 from engine.kernels.rounding import f32
 from engine.kernels.transition import calc_num_steps
-from engine.kernels.vector import copy, copy_four, copy_vector, load, store
+from engine.kernels.upright import is_off_zero, is_upright, placed_upright, turned_upright
+from engine.kernels.vector import copy, load, load_four, store, store_four
 from engine.layout import (
-    CHECK_POS,
     COLLISION_INFO,
     CONTACT_IS_WATER,
     CONTACT_VALID,
-    END_POS,
     FRAMES_STATIONARY_FALL,
     LAST_COLLIDED_OBJECT,
     LAST_KNOWN_VALID,
     NO_OBJECT,
     NODES_VISITED,
-    NUM_COLLIDE_OBJECT,
-    NUM_SPHERE,
-    OBJECTS_TESTED,
-    ORIGIN,
     PLAN_FLIGHT,
     POLYGONS_TESTED,
     POSE_ORIGIN,
@@ -68,11 +69,11 @@ from engine.layout import (
     SKIPPED,
     SKIPPED_FLIGHT,
     SLIDING_VALID,
-    TRACE_LENGTH,
+    SPHERE_SIZE,
 )
 
 if TYPE_CHECKING:
-    from engine.kernels.types import Array, Ints, Quaternion, Vector
+    from engine.kernels.types import Array, Ints, Quaternion, Sphere, Vector
 
 _Q = Q_COLLISION_INFO - COLLISION_INFO
 """From a field of COLLISIONINFO in a row of state to the same in a query's."""
@@ -88,8 +89,8 @@ def fly_through(wf: Array, wi: Ints, s: Array, q: Array, out: Array, next_out: A
     (`ball_about_way`) is inside its cell and clear of everything: in every sub-step the cell contains its
     first sphere, which `fly` asks each time (OC-3). All that CTransition::find_transitional_position does
     then is to turn and to move (FT-8, FT-11), and to accept where the mover is (VT-3); as long as that is
-    more than EPS away, VT-10 counts nothing. All other queries are left to it; what is written here into
-    the row of state, it writes before it reads.
+    more than EPS away, VT-10 counts nothing. All other queries are left to it, which writes all that may
+    have been written here.
 
     retail: CTransition::find_transitional_position 0x0050BDF0, 05 2
     """
@@ -97,22 +98,48 @@ def fly_through(wf: Array, wi: Ints, s: Array, q: Array, out: Array, next_out: A
     if not _is_in_the_air(s, q) or not is_flown_through(wf, wi, cell, q[Q_START]):
         return False
     bring_near(next_out, 0, RESULT_SIZE)
-    _take_off(s, q)
-    turning = turns(s, CHECK_POS)
-    if turning:
-        frame_cache(s, END_POS)
-    x, y, z = position_get_offset(s, CHECK_POS, s, END_POS)
-    sx, sy, sz, steps = calc_num_steps(s, False, x, y, z)
+    # Told apart only once: of either kind, compiled code has its own.
+    if is_upright(q):
+        return _fly(wf, wi, s, q, out, cell, True)
+    return _fly(wf, wi, s, q, out, cell, False)
+
+
+@inlined
+def _fly(wf: Array, wi: Ints, s: Array, q: Array, out: Array, cell: int, upright: bool) -> bool:
+    """Make a flight, if it is one; say whether it was.
+
+    Of the rotations only the last one is made, at its end: it depends on none before it unless it is not
+    valid. The clearance is asked for first, and what it says looked at last, when the answer is written: both
+    take long, and neither has to wait for the other.
+
+    retail: FT-8, FT-11
+    """
+    begin, end = load_four(q, Q_START + 1), load_four(q, Q_END + 1)
+    place = load(q, Q_START + POSE_ORIGIN)
+    x, y, z = offset_between(q[Q_START], place, q[Q_END], load(q, Q_END + POSE_ORIGIN))
+    count, first, second = _spheres(q, upright)
+    sx, sy, sz, steps = calc_num_steps(first[3], False, x, y, z)
     if not 0.0 < steps <= FLIGHT_STEPS or (sz * sz + sy * sy) + sx * sx < EPS2:
         return False
-    cx, cy, cz, far = ball_about_way(s, CHECK_POS, turning, x, y, z)
-    if not cell_holds(wf, wi, cell, cx, cy, cz, far) or not cell_beyond(wf, wi, s, cell, cx, cy, cz, far):
+    way = x, y, z
+    cx, cy, cz, far = ball_about_way(upright, count, first, second, place, begin, end, way)
+    if not cell_holds(wf, wi, cell, cx, cy, cz, far) or not opens_about(wf, wi, cell, cx, cy, cz, far):
         return False
-    if not _glide(s, q, sx, sy, sz, steps):
+    known = is_known_clear(wf, wi, cell, cx, cy, cz, far)
+    turn = turned_upright(begin, end) if upright else normalised(interpolated(begin, end, 1.0))
+    moved, there = _glide(place, sx, sy, sz, steps)
+    if not moved or not is_unit(turn):
         return False
-    s[SKIPPED_FLIGHT] = steps
-    _land(s, q, out)
-    return True
+    _write_spheres(upright, out, turn, there, count, first, second)
+    _land(q, out, steps, turn, there)
+    if known:
+        return True
+    s[NODES_VISITED] = 0.0
+    s[POLYGONS_TESTED] = 0.0
+    clear = is_clear(wf, wi, s, cell, count, first, second, place, begin, end, way)
+    out[R_NODES_VISITED] = s[NODES_VISITED]
+    out[R_POLYGONS_TESTED] = s[POLYGONS_TESTED]
+    return clear
 
 
 @inlined
@@ -130,70 +157,92 @@ def _is_in_the_air(s: Array, q: Array) -> bool:
 
 
 @inlined
-def _take_off(s: Array, q: Array) -> None:
-    """Set what of the row a flight reads, and its counters."""
-    for i in range(NODES_VISITED, OBJECTS_TESTED + 1):
-        s[i] = 0.0
-    for i in range(SKIPPED, TRACE_LENGTH):
-        s[i] = 0.0
-    s[NUM_COLLIDE_OBJECT] = 0.0
-    init_spheres(s, int(q[Q_NUM_SPHERE]), q, Q_SPHERES, q[Q_SCALE])
-    load_pose(s, CHECK_POS, q, Q_START)
-    s[END_POS] = q[Q_END]
-    copy_four(s, END_POS + QUATERNION, q, Q_END + QUATERNION)
-    copy_vector(s, END_POS + ORIGIN, q, Q_END + POSE_ORIGIN)
+def _sphere(q: Array, at: int, upright: bool) -> Sphere:
+    """Return one of the mover's spheres, scaled.
+
+    retail: SPHEREPATH::init_sphere 0x0050C670, SPI-1, SPI-2
+    """
+    scale = q[Q_SCALE]
+    x, y, z, r = load_four(q, at)
+    if upright:
+        return 0.0, 0.0, f32(scale * z), f32(scale * r)
+    return f32(scale * x), f32(scale * y), f32(scale * z), f32(scale * r)
 
 
 @inlined
-def _glide(s: Array, q: Array, x: float, y: float, z: float, steps: float) -> bool:
-    """Make sub-steps by x, y, z; say whether the mover has moved in each.
+def _spheres(q: Array, upright: bool) -> tuple[float, Sphere, Sphere]:
+    """Return how many spheres the mover has, and the two that it may have."""
+    count = float(int(q[Q_NUM_SPHERE]))
+    return count, _sphere(q, Q_SPHERES, upright), _sphere(q, Q_SPHERES + SPHERE_SIZE, upright)
 
-    retail: FT-8, FT-11; Frame::is_equal 0x00424C30, 04 3
+
+@inlined
+def _glide(place: Vector, x: float, y: float, z: float, steps: float) -> tuple[bool, Vector]:
+    """Make sub-steps by x, y, z; say whether the mover has moved in each, and where it is.
+
+    retail: FT-11; Frame::is_equal 0x00424C30, 04 3
     """
-    o = CHECK_POS + ORIGIN
+    ox, oy, oz = place
+    moved = True
     i = 0.0
     while i < steps:
         i += 1.0
-        frame_interpolate_rotation(s, CHECK_POS, q, Q_START, Q_END, f32(i / steps))
-        ox, oy, oz = load(s, o)
         nx, ny, nz = f32(ox + x), f32(oy + y), f32(oz + z)
-        if not (abs(nx - ox) > EPS or abs(ny - oy) > EPS or abs(nz - oz) > EPS):
-            return False
-        store(s, o, nx, ny, nz)
-    return True
+        moved = moved and (abs(nx - ox) > EPS or abs(ny - oy) > EPS or abs(nz - oz) > EPS)
+        ox, oy, oz = nx, ny, nz
+    return moved, (ox, oy, oz)
 
 
 @inlined
 def _write_pose(out: Array, pose: int, cell: float, turn: Quaternion, place: Vector) -> None:
     """Write a pose to a row of results."""
     out[pose] = cell
-    out[pose + QUATERNION] = turn[0]
-    store(out, pose + QUATERNION + 1, turn[1], turn[2], turn[3])
+    store_four(out, pose + QUATERNION, turn)
     store(out, pose + POSE_ORIGIN, place[0], place[1], place[2])
 
 
 @inlined
-def _land(s: Array, q: Array, out: Array) -> None:
-    """Write the answer: where the mover is, and of the rest what a transition leaves that has met nothing.
+def _placed(upright: bool, turn: Quaternion, place: Vector, x: float, y: float, z: float) -> Vector:
+    """Return where a sphere's centre is."""
+    if upright and is_off_zero(place):
+        return placed_upright(place, z)
+    return placed(matrix_of(turn), place, x, y, z)
 
-    The position is read before anything is written: compiled code then has it at hand, and does not wait for
-    what it has put into the row of state a moment ago.
+
+@inlined
+def _write_spheres(
+    upright: bool, out: Array, turn: Quaternion, place: Vector, count: float, first: Sphere, second: Sphere
+) -> None:
+    """Write where the spheres are; zeros for one that is not.
+
+    All is computed before any of it is written: compiled code cannot know that `out` is not what is read.
+    """
+    x, y, z = _placed(upright, turn, place, first[0], first[1], first[2])
+    ux, uy, uz, ur = 0.0, 0.0, 0.0, 0.0
+    if count > 1.0:
+        ux, uy, uz = _placed(upright, turn, place, second[0], second[1], second[2])
+        ur = second[3]
+    store_four(out, R_GLOBAL_SPHERES, (x, y, z, first[3]))
+    store_four(out, R_GLOBAL_SPHERES + SPHERE_SIZE, (ux, uy, uz, ur))
+
+
+@inlined
+def _land(q: Array, out: Array, steps: float, turn: Quaternion, place: Vector) -> None:
+    """Write the answer: where the mover is, and of the rest what a transition leaves that has met nothing.
 
     retail: VT-3, VT-11, VT-12
     """
-    home = s[CHECK_POS]
-    turn = s[CHECK_POS + QUATERNION], *load(s, CHECK_POS + QUATERNION + 1)
-    place = load(s, CHECK_POS + ORIGIN)
-    write_spheres(s, out, R_GLOBAL_SPHERES)
-    for i in range(R_COLLISION_INFO, RESULT_SIZE):
+    home, cell = q[Q_START], q[Q_BEGIN_CELL]
+    for i in range(_R + SLIDING_VALID, RESULT_SIZE):
         out[i] = 0.0
     out[R_RESULT] = 1.0
     out[R_DISPATCH] = 0.0
     _write_pose(out, R_CHECK, home, turn, place)
     _write_pose(out, R_CURR, home, turn, place)
-    out[R_CHECK_CELL] = q[Q_BEGIN_CELL]
-    out[R_CURR_CELL] = q[Q_BEGIN_CELL]
-    out[R_NUM_SPHERE] = s[NUM_SPHERE]
+    out[R_CHECK_CELL] = cell
+    out[R_CURR_CELL] = cell
+    out[R_NUM_SPHERE] = int(q[Q_NUM_SPHERE])
+    out[R_COLLISION_INFO] = 0.0
     copy(out, _R + LAST_KNOWN_VALID + 1, q, _Q + LAST_KNOWN_VALID + 1, SLIDING_VALID - LAST_KNOWN_VALID - 1)
     out[_R + CONTACT_VALID] = 0.0
     out[_R + CONTACT_IS_WATER] = 0.0
@@ -202,6 +251,4 @@ def _land(s: Array, q: Array, out: Array) -> None:
     out[R_WALKABLE_SHAPE] = -1.0
     out[R_HITS_INTERIOR_CELL] = 1.0
     out[R_STATE] = int(q[Q_STATE]) & ~(CONTACT | ON_WALKABLE)
-    out[R_NODES_VISITED] = s[NODES_VISITED]
-    out[R_POLYGONS_TESTED] = s[POLYGONS_TESTED]
-    out[R_SKIPPED + SKIPPED_FLIGHT - SKIPPED] = s[SKIPPED_FLIGHT]
+    out[R_SKIPPED + SKIPPED_FLIGHT - SKIPPED] = steps

@@ -15,11 +15,31 @@ from engine.constants import DEGREE, EPS, EPS5, RADIAN
 from engine.kernels.compile import entry, inlined, inlined_entry, kernel
 from engine.kernels.indexing import unsigned
 from engine.kernels.rounding import f32
-from engine.kernels.vector import load, normalize_check_small, store
+from engine.kernels.vector import load, load_four, normalize_check_small, store, store_four
 from engine.layout import MATRIX, ORIGIN, QUATERNION
 
 if TYPE_CHECKING:
-    from engine.kernels.types import Array, Vector
+    from engine.kernels.types import Array, Matrix, Quaternion, Vector
+
+
+@inlined
+def matrix_of(rotation: Quaternion) -> Matrix:
+    """Return the float32 matrix of a quaternion.
+
+    retail: Frame::cache 0x00534DF0, 01 4.2
+    """
+    w, x, y, z = rotation
+    x2 = x + x
+    y2 = y + y
+    z2 = z + z
+    wx, wy, wz = w * x2, w * y2, w * z2
+    xx, xy, xz = x * x2, x * y2, x * z2
+    yy, yz, zz = y * y2, y * z2, z * z2
+    return (
+        *(f32((1.0 - yy) - zz), f32(xy + wz), f32(xz - wy)),
+        *(f32(xy - wz), f32((1.0 - xx) - zz), f32(yz + wx)),
+        *(f32(xz + wy), f32(yz - wx), f32((1.0 - xx) - yy)),
+    )
 
 
 @entry
@@ -28,32 +48,54 @@ def frame_cache(a: Array, p: int) -> None:
 
     retail: Frame::cache 0x00534DF0, 01 4.2
     """
-    q = unsigned(p + QUATERNION)
-    w, x, y, z = a[q], a[q + 1], a[q + 2], a[q + 3]
-    x2 = x + x
-    y2 = y + y
-    z2 = z + z
-    wx, wy, wz = w * x2, w * y2, w * z2
-    xx, xy, xz = x * x2, x * y2, x * z2
-    yy, yz, zz = y * y2, y * z2, z * z2
     m = unsigned(p + MATRIX)
-    store(a, m, f32((1.0 - yy) - zz), f32(xy + wz), f32(xz - wy))
-    store(a, m + 3, f32(xy - wz), f32((1.0 - xx) - zz), f32(yz + wx))
-    store(a, m + 6, f32(xz + wy), f32(yz - wx), f32((1.0 - xx) - yy))
+    xx, xy, xz, yx, yy, yz, zx, zy, zz = matrix_of(load_four(a, p + QUATERNION))
+    store(a, m, xx, xy, xz)
+    store(a, m + 3, yx, yy, yz)
+    store(a, m + 6, zx, zy, zz)
 
 
 @inlined
-def frame_is_valid(a: Array, p: int) -> bool:
+def normalising(w: float, x: float, y: float, z: float) -> float:
+    """Return what makes a quaternion one of unit length.
+
+    retail: Frame::set_rotate 0x00535080, 01 4.4
+    """
+    return 1.0 / math.sqrt(((w * w + x * x) + y * y) + z * z)
+
+
+@inlined
+def normalised(rotation: Quaternion) -> Quaternion:
+    """Return a quaternion of unit length, as float32.
+
+    retail: Frame::set_rotate 0x00535080, 01 4.4
+    """
+    w, x, y, z = rotation
+    inv = normalising(w, x, y, z)
+    return f32(w * inv), f32(x * inv), f32(y * inv), f32(z * inv)
+
+
+@inlined
+def is_unit(rotation: Quaternion) -> bool:
+    """Say whether nothing of a quaternion is NaN, and it is of unit length within EPS*5.
+
+    retail: Frame::IsValid 0x00534ED0, 01 4.3
+    """
+    w, x, y, z = rotation
+    n = f32(((z * z + y * y) + x * x) + w * w)
+    return not (math.isnan(n) or abs(n - 1.0) > EPS5)
+
+
+@inlined
+def _frame_is_valid(a: Array, p: int) -> bool:
     """Say whether nothing is NaN and the quaternion is of unit length within EPS*5.
 
     retail: Frame::IsValid 0x00534ED0, 01 4.3
     """
-    q, o = unsigned(p + QUATERNION), unsigned(p + ORIGIN)
+    o = unsigned(p + ORIGIN)
     if math.isnan(a[o]) or math.isnan(a[o + 1]) or math.isnan(a[o + 2]):
         return False
-    w, x, y, z = a[q], a[q + 1], a[q + 2], a[q + 3]
-    n = f32(((z * z + y * y) + x * x) + w * w)
-    return not (math.isnan(n) or abs(n - 1.0) > EPS5)
+    return is_unit(load_four(a, p + QUATERNION))
 
 
 @inlined_entry
@@ -62,16 +104,12 @@ def frame_set_rotate(a: Array, p: int, w: float, x: float, y: float, z: float) -
 
     retail: Frame::set_rotate 0x00535080, 01 4.4
     """
-    q = unsigned(p + QUATERNION)
-    ow, ox, oy, oz = a[q], a[q + 1], a[q + 2], a[q + 3]
-    inv = 1.0 / math.sqrt(((w * w + x * x) + y * y) + z * z)
-    a[q] = f32(w * inv)
-    store(a, q + 1, f32(x * inv), f32(y * inv), f32(z * inv))
-    if frame_is_valid(a, p):
+    old = load_four(a, p + QUATERNION)
+    store_four(a, p + QUATERNION, normalised((w, x, y, z)))
+    if _frame_is_valid(a, p):
         frame_cache(a, p)
     else:
-        a[q] = ow
-        store(a, q + 1, ox, oy, oz)
+        store_four(a, p + QUATERNION, old)
 
 
 @entry
@@ -163,27 +201,34 @@ def frame_is_equal(a: Array, p: int, b: Array, r: int) -> bool:
     return True
 
 
-@inlined_entry
-def frame_interpolate_rotation(a: Array, p: int, b: Array, start: int, end: int, t: float) -> None:
-    """Set the rotation between those of two frames, spherically where they differ enough.
+@inlined
+def interpolated(begin: Quaternion, end: Quaternion, t: float) -> Quaternion:
+    """Return the float32 rotation between two, spherically where they differ enough; not normalised.
 
     retail: Frame::interpolate_rotation 0x00535390, 01 4.8
     """
-    q, r = start + QUATERNION, end + QUATERNION
-    fw, fx, fy, fz = b[q], b[q + 1], b[q + 2], b[q + 3]
-    tw, tx, ty, tz = b[r], b[r + 1], b[r + 2], b[r + 3]
+    fw, fx, fy, fz = begin
+    tw, tx, ty, tz = end
     c = ((fy * ty + fw * tw) + fx * tx) + fz * tz
     if c < 0.0:
         c = -c
         tw, tx, ty, tz = -tw, -tx, -ty, -tz
-    k0, k1 = _interpolation_weights(c, t)
-    frame_set_rotate(
-        a, p, f32(k0 * fw + tw * k1), f32(fx * k0 + tx * k1), f32(fy * k0 + ty * k1), f32(tz * k1 + fz * k0)
-    )
+    k0, k1 = interpolation_weights(c, t)
+    return f32(k0 * fw + tw * k1), f32(fx * k0 + tx * k1), f32(fy * k0 + ty * k1), f32(tz * k1 + fz * k0)
+
+
+@inlined_entry
+def frame_interpolate_rotation(a: Array, p: int, b: Array, start: int, end: int, t: float) -> None:
+    """Set the rotation between those of two frames.
+
+    retail: Frame::interpolate_rotation 0x00535390, 01 4.8
+    """
+    w, x, y, z = interpolated(load_four(b, start + QUATERNION), load_four(b, end + QUATERNION), t)
+    frame_set_rotate(a, p, w, x, y, z)
 
 
 @kernel
-def _interpolation_weights(c: float, t: float) -> tuple[float, float]:
+def interpolation_weights(c: float, t: float) -> tuple[float, float]:
     """Weigh two unit quaternions whose dot product is `c`.
 
     retail: Frame::interpolate_rotation 0x00535390, 01 4.8

@@ -54,9 +54,7 @@ from engine.layout import (
 )
 
 if TYPE_CHECKING:
-    from engine.kernels.types import Array, Vector
-
-_SECOND_SPHERE = LOCAL_SPHERE + SPHERE_SIZE
+    from engine.kernels.types import Array, Matrix, Vector
 
 
 @kernel
@@ -92,36 +90,26 @@ def cache_global_curr_center(s: Array) -> None:
 
 
 @inlined
-def _placed(s: Array, sphere: int) -> Vector:
-    """Return a sphere's centre as the check position has it.
+def placed(matrix: Matrix, origin: Vector, x: float, y: float, z: float) -> Vector:
+    """Return a sphere's centre as a check position has it.
 
     retail: SPHEREPATH::cache_global_sphere 0x0050C810, 04 4, form B
     """
-    m, o = CHECK_POS + MATRIX, CHECK_POS + ORIGIN
-    x, y, z = load(s, sphere)
+    m0, m1, m2, m3, m4, m5, m6, m7, m8 = matrix
     return (
-        f32(((x * s[m] + y * s[m + 3]) + z * s[m + 6]) + s[o]),
-        f32(((s[m + 7] * z + x * s[m + 1]) + s[m + 4] * y) + s[o + 1]),
-        f32(((s[m + 8] * z + s[m + 2] * x) + s[m + 5] * y) + s[o + 2]),
+        f32(((x * m0 + y * m3) + z * m6) + origin[0]),
+        f32(((m7 * z + x * m1) + m4 * y) + origin[1]),
+        f32(((m8 * z + m2 * x) + m5 * y) + origin[2]),
     )
 
 
 @inlined
-def write_spheres(s: Array, out: Array, first: int) -> None:
-    """Write the spheres, as the check position has them, to ``out[first]`` and on; zeros for one that is not.
-
-    All is computed before any of it is written: compiled code cannot know that `out` is not the row.
-    """
-    x, y, z = _placed(s, LOCAL_SPHERE)
-    ux, uy, uz, ur = 0.0, 0.0, 0.0, 0.0
-    if s[NUM_SPHERE] > 1.0:
-        ux, uy, uz = _placed(s, _SECOND_SPHERE)
-        ur = s[_SECOND_SPHERE + RADIUS]
-    r = s[LOCAL_SPHERE + RADIUS]
-    store(out, first, x, y, z)
-    out[first + RADIUS] = r
-    store(out, first + SPHERE_SIZE, ux, uy, uz)
-    out[first + SPHERE_SIZE + RADIUS] = ur
+def _placed(s: Array, sphere: int) -> Vector:
+    """Return the same as the row's check position has it."""
+    m = CHECK_POS + MATRIX
+    matrix = *load(s, m), *load(s, m + 3), *load(s, m + 6)
+    x, y, z = load(s, sphere)
+    return placed(matrix, load(s, CHECK_POS + ORIGIN), x, y, z)
 
 
 @kernel

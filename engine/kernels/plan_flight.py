@@ -16,7 +16,7 @@ from engine.kernels.plan_portals import list_alone
 from engine.kernels.polygon import plane_distance
 from engine.kernels.probing import stays_in_contact
 from engine.kernels.rounding import slack
-from engine.kernels.vector import load
+from engine.kernels.vector import load, load_four
 from engine.layout import (
     BOUNDS_PASSABLE,
     CELL_ARRAY_VALID,
@@ -41,7 +41,6 @@ from engine.layout import (
     PLAN_FLIGHT,
     PLANE_SIZE,
     QUATERNION,
-    RADIUS,
     SKIPPED_FLIGHT,
     SLIDING_VALID,
     SPHERE_SIZE,
@@ -49,7 +48,7 @@ from engine.layout import (
 )
 
 if TYPE_CHECKING:
-    from engine.kernels.types import Array, Ints, Vector
+    from engine.kernels.types import Array, Ints, Quaternion, Sphere, Vector
 
 _SECOND_SPHERE = LOCAL_SPHERE + SPHERE_SIZE
 _TURNS = 3.0 * BOUND_TILT
@@ -63,36 +62,11 @@ def _length(x: float, y: float, z: float) -> float:
 
 
 @inlined
-def _turned(s: Array, p: int, x: float, y: float, z: float) -> Vector:
-    """Rotate a vector out of a position of the row; no rounding is retail's."""
-    m = p + MATRIX
-    return (
-        s[m] * x + s[m + 3] * y + s[m + 6] * z,
-        s[m + 1] * x + s[m + 4] * y + s[m + 7] * z,
-        s[m + 2] * x + s[m + 5] * y + s[m + 8] * z,
-    )
-
-
-@inlined
-def turns(s: Array, begin: int) -> bool:
-    """Say whether the row's `END_POS` has another rotation than the position at `begin`."""
-    q, r = begin + QUATERNION, END_POS + QUATERNION
-    return s[q] != s[r] or s[q + 1] != s[r + 1] or s[q + 2] != s[r + 2] or s[q + 3] != s[r + 3]
-
-
-@inlined
-def _turn(s: Array, begin: int, sphere: int) -> float:
-    """Return how far a rotation from the begin's to the end's takes a sphere's centre from its place.
-
-    It goes the shorter way about one axis, so that the centre is never farther from where the begin's
-    rotation puts it than where the end's does.
-
-    retail: Frame::interpolate_rotation 0x00535390, 01 4.8
-    """
-    x, y, z = load(s, sphere)
-    ax, ay, az = _turned(s, begin, x, y, z)
-    bx, by, bz = _turned(s, END_POS, x, y, z)
-    return _length(bx - ax, by - ay, bz - az)
+def _turned(rotation: Quaternion, x: float, y: float, z: float) -> Vector:
+    """Rotate a vector; no rounding is retail's."""
+    w, i, j, k = rotation
+    cx, cy, cz = 2.0 * (j * z - k * y), 2.0 * (k * x - i * z), 2.0 * (i * y - j * x)
+    return x + w * cx + (j * cz - k * cy), y + w * cy + (k * cx - i * cz), z + w * cz + (i * cy - j * cx)
 
 
 @kernel
@@ -128,24 +102,6 @@ def _cell_rounding(wf: Array, p: int) -> float:
     return BOUND_ROUNDING * (abs(wf[o]) + abs(wf[o + 1]) + abs(wf[o + 2]))
 
 
-@kernel
-def cell_beyond(wf: Array, wi: Ints, s: Array, cell: int, x: float, y: float, z: float, r: float) -> bool:
-    """Say whether a ball of an environment cell's block touches nothing in the cell, and no portal.
-
-    No portal of the cell (`fences_beyond`), no object, and no polygon of its tree.
-    """
-    if not fences_beyond(wf, wi, cell, x, y, z, r):
-        return False
-    if not _objects_beyond(wf, wi, cell, cell_id(wf, wi, cell), x, y, z, r):
-        return False
-    root = wi[ints_of(wi, cell) + CELL_TREE]
-    if root == NO_TREE:
-        return True
-    lx, ly, lz = _into_cell(wf, position_of(wi, cell), x, y, z)
-    far = r + _cell_rounding(wf, position_of(wi, cell))
-    return known_clear(wf, wi, cell, lx, ly, lz, far) or tree_beyond(wf, wi, s, root, lx, ly, lz, far)
-
-
 @inlined
 def cell_holds(wf: Array, wi: Ints, cell: int, x: float, y: float, z: float, r: float) -> bool:
     """Say whether an environment cell contains all points of a ball of its block.
@@ -176,34 +132,118 @@ def is_flown_through(wf: Array, wi: Ints, cell: int, home: float) -> bool:
 
 
 @inlined
-def ball_about_way(
-    s: Array, begin: int, turning: bool, x: float, y: float, z: float
-) -> tuple[float, float, float, float]:
-    """Return centre and radius of a ball that the mover's spheres don't leave on a way by x, y, z.
+def _turn(begin: Quaternion, end: Quaternion, x: float, y: float, z: float) -> float:
+    """Return how far a rotation from the begin's to the end's takes a sphere's centre from its place.
 
-    `begin`: the position of the row where it begins; `turning`: whether it ends with another rotation, that
-    of the row's `END_POS`. The ball bounds the spheres wherever any of them is tested, in every rotation
-    between both, and has all slack that there is to be. In the mover's frame its centre is in the middle of
-    theirs.
+    It goes the shorter way about one axis, so that the centre is never farther from where the begin's
+    rotation puts it than where the end's does.
+
+    retail: Frame::interpolate_rotation 0x00535390, 01 4.8
     """
-    lx, ly, lz = load(s, LOCAL_SPHERE)
-    r, spread, turn = s[LOCAL_SPHERE + RADIUS], 0.0, 0.0
-    if s[NUM_SPHERE] > 1.0:
-        ux, uy, uz = load(s, _SECOND_SPHERE)
+    ax, ay, az = _turned(begin, x, y, z)
+    bx, by, bz = _turned(end, x, y, z)
+    return _length(bx - ax, by - ay, bz - az)
+
+
+@inlined
+def ball_about_way(
+    upright: bool,
+    count: float,
+    first: Sphere,
+    second: Sphere,
+    place: Vector,
+    begin: Quaternion,
+    end: Quaternion,
+    way: Vector,
+) -> Sphere:
+    """Return a ball that the mover's spheres don't leave on their way.
+
+    `upright`: whether all rotations are about the axis on which the spheres are (`engine.kernels.upright`);
+    `count`: how many there are; `place`: where the mover's origin begins; `begin`, `end`: its rotations. The
+    ball bounds the spheres wherever any of them is tested, in every rotation between both, and has all slack
+    that there is to be. In the mover's frame its centre is in the middle of theirs.
+    """
+    lx, ly, lz, r = first
+    x, y, z = way
+    turning = not upright and begin != end
+    spread, turn = 0.0, 0.0
+    if turning:
+        turn = _turn(begin, end, lx, ly, lz)
+    if count > 1.0:
+        ux, uy, uz, ur = second
+        if turning:
+            turn = max(turn, _turn(begin, end, ux, uy, uz))
         ux, uy, uz = 0.5 * (ux - lx), 0.5 * (uy - ly), 0.5 * (uz - lz)
         spread = _length(ux, uy, uz)
         lx, ly, lz = lx + ux, ly + uy, lz + uz
-        r = max(r, abs(s[_SECOND_SPHERE + RADIUS]))
-        if turning:
-            turn = _turn(s, begin, _SECOND_SPHERE)
-    if turning:
-        turn = max(turn, _turn(s, begin, LOCAL_SPHERE))
+        r = max(r, abs(ur))
     turn += _TURNS * (spread + abs(lx) + abs(ly) + abs(lz))
-    mx, my, mz = _turned(s, begin, lx, ly, lz)
-    ox, oy, oz = load(s, begin + ORIGIN)
-    cx, cy, cz = ox + mx + 0.5 * x, oy + my + 0.5 * y, oz + mz + 0.5 * z
+    if not upright:
+        lx, ly, lz = _turned(begin, lx, ly, lz)
+    cx, cy, cz = place[0] + lx + 0.5 * x, place[1] + ly + 0.5 * y, place[2] + lz + 0.5 * z
     reach = (spread + r + turn + 0.5 * _length(x, y, z)) * (1.0 + BOUND_TILT)
     return cx, cy, cz, reach + slack(cx, cy, cz) + BOUND_ROUNDING * (abs(x) + abs(y) + abs(z))
+
+
+@inlined
+def opens_about(wf: Array, wi: Ints, cell: int, x: float, y: float, z: float, r: float) -> bool:
+    """Say whether a ball of an environment cell's block reaches no portal of the cell, and no object."""
+    return fences_beyond(wf, wi, cell, x, y, z, r) and _objects_beyond(
+        wf, wi, cell, cell_id(wf, wi, cell), x, y, z, r
+    )
+
+
+@inlined
+def is_known_clear(wf: Array, wi: Ints, cell: int, x: float, y: float, z: float, r: float) -> bool:
+    """Say whether a ball of an environment cell's block is known to touch nothing of the cell's tree."""
+    p = position_of(wi, cell)
+    lx, ly, lz = _into_cell(wf, p, x, y, z)
+    return known_clear(wf, wi, cell, lx, ly, lz, r + _cell_rounding(wf, p))
+
+
+@kernel
+def _ball_is_clear(
+    wf: Array, wi: Ints, s: Array, cell: int, root: int, x: float, y: float, z: float, r: float
+) -> bool:
+    """Say whether a ball of an environment cell's block touches nothing of its tree, known or to be found."""
+    p = position_of(wi, cell)
+    lx, ly, lz = _into_cell(wf, p, x, y, z)
+    far = r + _cell_rounding(wf, p)
+    return known_clear(wf, wi, cell, lx, ly, lz, far) or tree_beyond(wf, wi, s, root, lx, ly, lz, far)
+
+
+@kernel
+def is_clear(
+    wf: Array,
+    wi: Ints,
+    s: Array,
+    cell: int,
+    count: float,
+    first: Sphere,
+    second: Sphere,
+    place: Vector,
+    begin: Quaternion,
+    end: Quaternion,
+    way: Vector,
+) -> bool:
+    """Say whether the mover's spheres touch nothing of an environment cell's tree on their way, each alone.
+
+    To be asked of those about whom one ball is not known to be clear: two take less room. Each has the
+    larger of both radii, as that ball has. All else as of `ball_about_way`.
+    """
+    root = wi[ints_of(wi, cell) + CELL_TREE]
+    if root == NO_TREE:
+        return True
+    x, y, z, r = first
+    ux, uy, uz, ur = second
+    r = max(r, abs(ur)) if count > 1.0 else r
+    cx, cy, cz, far = ball_about_way(False, 1.0, (x, y, z, r), second, place, begin, end, way)
+    if not _ball_is_clear(wf, wi, s, cell, root, cx, cy, cz, far):
+        return False
+    if count < 2.0:
+        return True
+    cx, cy, cz, far = ball_about_way(False, 1.0, (ux, uy, uz, r), second, place, begin, end, way)
+    return _ball_is_clear(wf, wi, s, cell, root, cx, cy, cz, far)
 
 
 @kernel
@@ -224,8 +264,15 @@ def flies_freely(wf: Array, wi: Ints, s: Array, x: float, y: float, z: float, st
         or not is_flown_through(wf, wi, cell, s[CURR_POS])
     ):
         return False
-    cx, cy, cz, far = ball_about_way(s, CURR_POS, turns(s, CURR_POS), x, y, z)
-    return cell_beyond(wf, wi, s, cell, cx, cy, cz, far)
+    count, first, second = s[NUM_SPHERE], load_four(s, LOCAL_SPHERE), load_four(s, _SECOND_SPHERE)
+    place, way = load(s, CURR_POS + ORIGIN), (x, y, z)
+    begin, end = load_four(s, CURR_POS + QUATERNION), load_four(s, END_POS + QUATERNION)
+    cx, cy, cz, far = ball_about_way(False, count, first, second, place, begin, end, way)
+    if not opens_about(wf, wi, cell, cx, cy, cz, far):
+        return False
+    return is_known_clear(wf, wi, cell, cx, cy, cz, far) or is_clear(
+        wf, wi, s, cell, count, first, second, place, begin, end, way
+    )
 
 
 @kernel

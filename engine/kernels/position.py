@@ -9,6 +9,7 @@ from engine.kernels.compile import entry, inlined, inlined_entry
 from engine.kernels.frame import frame_globaltolocal
 from engine.kernels.indexing import unsigned
 from engine.kernels.rounding import f32
+from engine.kernels.vector import load
 from engine.layout import MATRIX, ORIGIN
 
 if TYPE_CHECKING:
@@ -104,14 +105,24 @@ def position_localtolocal(b: Array, to: int, a: Array, p: int, x: float, y: floa
     return frame_globaltolocal(b, to, f32(bx + gx), f32(by + gy), f32(0.0 + gz))
 
 
+@inlined
+def offset_between(home: float, begin: Vector, other: float, end: Vector) -> Vector:
+    """Return the way from one place to another, in the first one's block: of what cells both are told.
+
+    retail: Position::get_offset 0x00509F60, 01 5.8
+    """
+    bx, by = block_offset(home, other)
+    return (
+        f32((bx + end[0]) - begin[0]),
+        f32(f32(by + end[1]) - begin[1]),
+        f32(f32(0.0 + end[2]) - begin[2]),
+    )
+
+
 @inlined_entry
 def position_get_offset(a: Array, p: int, b: Array, r: int) -> Vector:
     """Return the way from one position's origin to another's, in the first one's block.
 
     retail: Position::get_offset 0x00509F60, 01 5.8
     """
-    bx, by = block_offset(a[p], b[r])
-    ax = bx + b[r + ORIGIN]
-    ay = f32(by + b[r + ORIGIN + 1])
-    az = f32(0.0 + b[r + ORIGIN + 2])
-    return f32(ax - a[p + ORIGIN]), f32(ay - a[p + ORIGIN + 1]), f32(az - a[p + ORIGIN + 2])
+    return offset_between(a[p], load(a, p + ORIGIN), b[r], load(b, r + ORIGIN))

@@ -79,12 +79,11 @@ def _scaled(k: float, x: float, y: float, z: float) -> Vector:
 
 
 @inlined_entry
-def calc_num_steps(s: Array, viewer: bool, x: float, y: float, z: float) -> tuple[float, float, float, float]:
-    """Divide an offset into sub-steps not longer than the sphere's radius: a step, and how many.
+def calc_num_steps(r: float, viewer: bool, x: float, y: float, z: float) -> tuple[float, float, float, float]:
+    """Divide an offset into sub-steps not longer than the first sphere's radius: a step, and how many.
 
     retail: CTransition::calc_num_steps 0x0050A0B0, NS-3...NS-5
     """
-    r = s[LOCAL_SPHERE + RADIUS]
     length = _length(x, y, z)
     if viewer:
         if length <= EPS:
@@ -124,7 +123,7 @@ def _find_transitional_position(wf: Array, wi: Ints, s: Array) -> bool:
     state = int(s[OI_STATE])
     viewer, free = state & IS_VIEWER != 0, state & FREE_ROTATE != 0
     ox, oy, oz = position_get_offset(s, BEGIN_POS, s, END_POS)
-    sx, sy, sz, steps = calc_num_steps(s, viewer, ox, oy, oz)
+    sx, sy, sz, steps = calc_num_steps(s[LOCAL_SPHERE + RADIUS], viewer, ox, oy, oz)
     if free:
         _take_end_rotation(s)
     set_check_pos(s, CURR_POS, s[CURR_CELL])

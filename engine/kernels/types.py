@@ -19,3 +19,7 @@ Vector: TypeAlias = tuple[float, float, float]
 """x, y, z."""
 Quaternion: TypeAlias = tuple[float, float, float, float]
 """w, x, y, z."""
+Matrix: TypeAlias = tuple[float, float, float, float, float, float, float, float, float]
+"""m0...m8 of a frame."""
+Sphere: TypeAlias = tuple[float, float, float, float]
+"""x, y, z of the centre, radius."""

@@ -12,7 +12,7 @@ from engine.kernels.rounding import f32
 from engine.layout import MATRIX, ORIGIN, QUATERNION
 
 if TYPE_CHECKING:
-    from engine.kernels.types import Array, Vector
+    from engine.kernels.types import Array, Quaternion, Vector
 
 
 @inlined
@@ -54,6 +54,20 @@ def store(a: Array, at: int, x: float, y: float, z: float) -> None:
 
 
 @inlined
+def load_four(a: Array, at: int) -> Quaternion:
+    """Read a quaternion, a plane, or a sphere."""
+    i = unsigned(at)
+    return a[i], a[i + 1], a[i + 2], a[i + 3]
+
+
+@inlined
+def store_four(a: Array, at: int, four: Quaternion) -> None:
+    """Write a quaternion, a plane, or a sphere."""
+    a[unsigned(at)] = four[0]
+    store(a, at + 1, four[1], four[2], four[3])
+
+
+@inlined
 def copy_vector(a: Array, at: int, b: Array, source: int) -> None:
     """Copy three consecutive numbers: a struct assignment."""
     x, y, z = load(b, source)
@@ -63,10 +77,7 @@ def copy_vector(a: Array, at: int, b: Array, source: int) -> None:
 @inlined
 def copy_four(a: Array, at: int, b: Array, source: int) -> None:
     """Copy a quaternion, a plane, or a sphere: a struct assignment."""
-    w = b[unsigned(source)]
-    x, y, z = load(b, source + 1)
-    a[unsigned(at)] = w
-    store(a, at + 1, x, y, z)
+    store_four(a, at, load_four(b, source))
 
 
 @inlined

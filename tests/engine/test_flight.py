@@ -2,11 +2,12 @@
 
 from __future__ import annotations
 
+import math
 from dataclasses import replace
 from typing import Any
 
 import pytest
-from engine_scenes import CELL, R, at, mover, triangle, world_of
+from engine_scenes import CELL, R, at, floor_and_wall, mover, triangle, world_of
 from hypothesis import given
 from hypothesis import strategies as st
 
@@ -78,6 +79,31 @@ def test_flights_that_turn_end_as_transitions_do(
     end = tuple(a + b for a, b in zip(begin, way, strict=True))
     start, stop = (Pose(CELL, p, q) for p, q in zip((begin, end), rotations, strict=True))
     flown(WORLD, Move(mover(spheres=2), stop, CELL, start=start))
+
+
+@given(
+    st.tuples(COORDINATES | st.just(0.0), COORDINATES | st.just(-0.0), st.floats(6.0, 9.0, width=32)),
+    st.tuples(WAYS, WAYS, st.floats(-0.5, 0.5, width=32)),
+    st.tuples(st.floats(0.0, 7.0), st.floats(0.0, 7.0)),
+)
+def test_upright_flights_end_as_transitions_do(
+    begin: tuple[float, ...], way: tuple[float, ...], headings: tuple[float, float]
+) -> None:
+    """With the same bits, also where a coordinate is 0, whichever way they turn."""
+    end = tuple(a + b for a, b in zip(begin, way, strict=True))
+    start, stop = (
+        Pose(CELL, place, (math.cos(angle), 0.0, -0.0, math.sin(angle)))
+        for place, angle in zip((begin, end), headings, strict=True)
+    )
+    flown(WORLD, Move(mover(spheres=2), stop, CELL, start=start))
+
+
+@pytest.mark.parametrize(("gap", "flies"), [(0.3, True), (0.1, True), (0.02, False)])
+def test_each_sphere_alone_takes_less_room(gap: float, flies: bool) -> None:
+    """Beside a wall that the ball about both reaches, a flight is one as long as neither of theirs does."""
+    x = 1.0 - R - gap
+    move = replace(FLIGHT, start=at(x - 0.1, 0.0, 0.9), end=at(x, 0.0, 0.9))
+    assert sub_steps(flown(world_of(floor_and_wall()), move)) == flies
 
 
 @pytest.mark.parametrize(
