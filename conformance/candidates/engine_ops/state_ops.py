@@ -103,7 +103,8 @@ def calc_num_steps(question: Query) -> Fields:
     query.prepare(state, numbers_of(query_row(inputs)))
     viewer = int(state[at.OI_STATE]) & IS_VIEWER != 0
     offset = get_offset(state, int(at.BEGIN_POS), state, int(at.END_POS))
-    *step, count = transitions.calc_num_steps(state, viewer, *offset)
+    radius = state[at.LOCAL_SPHERE + at.RADIUS]
+    *step, count = transitions.calc_num_steps(radius, viewer, *offset)
     return {"offset": list(offset), "step": step, "num_steps": int(count)}
 
 
