@@ -18,6 +18,8 @@ from numba.core.dispatcher import Dispatcher
 
 from engine.kernels.abreast import flat_planes, lowest, near_planes
 from engine.kernels.ahead import bring_near, bring_nearer
+from engine.kernels.fours import move_four, put_four
+from engine.kernels.octets import octet
 from engine.kernels.sharing import add_to
 from engine.kernels.sides import sides_outside
 from engine.layout import ABREAST, PLANE_SIZE, SIDES, SIDES_SIZE
@@ -125,9 +127,26 @@ def _sides_outside(wf: Any, at: int, x: float, y: float, z: float, far: float) -
     return _mask(outside) | _mask(outside & (side * side > squared * far)) << int(SIDES)
 
 
+def _octet(numbers: Any, place: int) -> int:
+    """Do what `engine.kernels.octets.octet` does."""
+    return int(numbers[place >> 3]) >> 8 * (place & 7) & 0xFF
+
+
 def _lowest(mask: int) -> int:
     """Do what `engine.kernels.abreast.lowest` does."""
     return int(mask & -mask).bit_length() - 1
+
+
+def _put_four(numbers: Any, at: int, *four: float) -> None:
+    """Do what `engine.kernels.fours.put_four` does."""
+    for k, number in enumerate(four):
+        numbers[at + k] = number
+
+
+def _move_four(numbers: Any, at: int, source: Any, first: int) -> None:
+    """Do what `engine.kernels.fours.move_four` does."""
+    for k in range(4):
+        numbers[at + k] = source[first + k]
 
 
 def _number(value: Any) -> Any:
@@ -166,6 +185,9 @@ _MACHINE: Final[dict[Any, Callable[..., Any]]] = {
     sides_outside: _sides_outside,
     flat_planes: _flat_planes,
     lowest: _lowest,
+    octet: _octet,
+    put_four: _put_four,
+    move_four: _move_four,
 }
 """Kernels that are made of instructions of the machine, and what stands for them."""
 _MATH: Final = SimpleNamespace(

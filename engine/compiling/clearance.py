@@ -25,8 +25,8 @@ _CUBES_PER_POLYGON: Final = 128
 """A grid's size, and the time that it takes to make, are bounded by those of its geometry,"""
 _MOST_CUBES: Final = 2**20
 """and by this: a byte each."""
-_STEPS_PER_EDGE: Final = 8
-"""Resolution of clearances."""
+_BYTES: Final = 8
+"""Of an integer."""
 
 
 def write_clearances(storage: Storage, trees: CellTrees, cells: Sequence[Cell]) -> dict[int, int]:
@@ -39,7 +39,7 @@ def write_clearances(storage: Storage, trees: CellTrees, cells: Sequence[Cell]) 
         grid = _grid_about(shape)
         levels = np.zeros(int(grid[at.CLEARANCE_COUNTS :][:3].prod()), dtype=np.uint8)
         measure_clearance(trees.floats, trees.ints, trees.row, storage.root_of(shape), grid, levels)
-        grid[at.CLEARANCE_LEVELS] = storage.add_ints(packed(levels, int(at.CLEARANCE_BITS)))
+        grid[at.CLEARANCE_LEVELS] = _BYTES * storage.add_ints(packed(levels, int(at.CLEARANCE_BITS)))
         storage.align()
         grids[id(shape)] = storage.add_floats(grid)
     table = [grids.get(id(cell.shape), int(at.NO_CLEARANCE)) for cell in cells]
@@ -55,5 +55,4 @@ def _grid_about(shape: Shape) -> Array:
     grid[at.CLEARANCE_COUNTS : at.CLEARANCE_COUNTS + at.VECTOR_SIZE] = cubes.counts
     grid[at.CLEARANCE_EDGE] = cubes.edge
     grid[at.CLEARANCE_PER_METRE] = 1.0 / cubes.edge
-    grid[at.CLEARANCE_STEP] = cubes.edge / _STEPS_PER_EDGE
     return grid

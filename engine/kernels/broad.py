@@ -55,13 +55,13 @@ if TYPE_CHECKING:
 @inlined
 def listed_ball(wi: Ints, table: int, index: int) -> int:
     """Return where the bounding ball of an object, or of a building, lies in the world's floats."""
-    return wi[table] + BALL_SIZE * index
+    return unsigned(wi[table] + BALL_SIZE * index)
 
 
 @inlined
 def bounds_of(wi: Ints, cell: int) -> int:
     """Return where a cell's bounds lie in the world's floats."""
-    return wi[WORLD_CELL_BOUNDS] + BOUNDS_SIZE * cell
+    return unsigned(wi[WORLD_CELL_BOUNDS] + BOUNDS_SIZE * cell)
 
 
 @inlined

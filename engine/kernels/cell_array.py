@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING
 
 from engine.constants import FIRST_INDOOR
 from engine.kernels.compile import inlined, kernel
+from engine.kernels.indexing import unsigned
 from engine.layout import (
     CELL_FLOATS,
     CELL_ID,
@@ -29,13 +30,13 @@ if TYPE_CHECKING:
 @inlined
 def position_of(wi: Ints, cell: int) -> int:
     """Return where a cell's position lies in the world's floats."""
-    return wi[WORLD_CELL_FLOATS] + CELL_FLOATS * cell
+    return unsigned(wi[WORLD_CELL_FLOATS] + CELL_FLOATS * cell)
 
 
 @inlined
 def ints_of(wi: Ints, cell: int) -> int:
     """Return where a cell's integers lie."""
-    return wi[WORLD_CELL_INTS] + CELL_INTS * cell
+    return unsigned(wi[WORLD_CELL_INTS] + CELL_INTS * cell)
 
 
 @inlined

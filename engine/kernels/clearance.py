@@ -13,17 +13,15 @@ from typing import TYPE_CHECKING
 from engine.kernels.broad import tree_beyond
 from engine.kernels.compile import entry, inlined, kernel
 from engine.kernels.indexing import unsigned
+from engine.kernels.octets import octet
 from engine.layout import (
-    CLEARANCE_BITS,
     CLEARANCE_CORNER,
     CLEARANCE_COUNTS,
     CLEARANCE_EDGE,
     CLEARANCE_LEVELS,
-    CLEARANCE_MASK,
     CLEARANCE_MOST,
     CLEARANCE_PER_METRE,
-    CLEARANCE_SHIFT,
-    CLEARANCE_STEP,
+    CLEARANCE_STEPS,
     NO_CLEARANCE,
     WORLD_CLEARANCES,
 )
@@ -33,25 +31,25 @@ if TYPE_CHECKING:
 
 
 @inlined
-def _beside(u: float, i: int, count: int) -> int:
-    """Return the cube next to which a point of the i-th is, of so many along an axis; the i-th at the end."""
-    return min(max(i + (1 if u - i > 0.5 else -1), 0), count - 1)
+def _off(u: float, i: int) -> float:
+    """Return how far a point is from the middle of the i-th cube, which holds it, along an axis; in steps."""
+    return CLEARANCE_STEPS * (u - i - 0.5)
 
 
 @inlined
-def _off(edge: float, u: float, i: int) -> float:
-    """Return the square of how far a point is from the middle of the i-th cube, along an axis."""
-    away = edge * (u - i - 0.5)
-    return away * away
+def _beside(i: int, off: float) -> int:
+    """Return the cube that a point of the i-th is next to, along an axis."""
+    return i + 1 if off > 0.0 else i - 1
 
 
 @inlined
-def _room(wi: Ints, levels: int, cube: int, step: float, r: float, squared: float) -> float:
-    """Return more than 0 if the clear ball about the middle of a cube holds a ball that is so far off."""
-    word = wi[unsigned(levels + (cube >> CLEARANCE_SHIFT))]
-    level = (word >> CLEARANCE_BITS * (cube & CLEARANCE_MASK)) & CLEARANCE_MOST
-    room = max(0.0, step * level - r)
-    return room * room - squared
+def _room(wi: Ints, cube: int, r: float, x: float, y: float, z: float) -> float:
+    """Return more than 0 if the clear ball about the middle of a cube holds one of radius r; all in steps.
+
+    `cube`: its byte; `x`, `y`, `z`: how far the other's centre is from there.
+    """
+    room = max(0.0, octet(wi, cube) - r)
+    return room * room - ((x * x + y * y) + z * z)
 
 
 @inlined
@@ -59,9 +57,9 @@ def known_clear(wf: Array, wi: Ints, cell: int, x: float, y: float, z: float, r:
     """Say whether a ball, in an environment cell's own frame, is known to be clear of the cell's tree.
 
     It is if it lies inside the ball that was found clear about the middle of a cube: of the one that holds
-    its centre, or of the three that are next to it beside that. Points outside the box are in no cube, and
-    NaN is nowhere. What is rounded here is less than a part in 2**45 of the size of the grid, which the
-    slack that balls are given for roundings to float32 is far above.
+    its centre, or of the three that are next to it beside that. Of points outside the box, or in one of its
+    outermost cubes, nothing is known, and NaN is nowhere. What is rounded here is less than a part in 2**45
+    of the size of the grid, which the slack that balls are given for roundings to float32 is far above.
 
     All four are looked at, without a branch: which of them will do nobody can foresee, and to have guessed
     wrong takes longer than to look.
@@ -74,18 +72,24 @@ def known_clear(wf: Array, wi: Ints, cell: int, x: float, y: float, z: float, r:
     v = scale * (y - wf[g + CLEARANCE_CORNER + 1])
     w = scale * (z - wf[g + CLEARANCE_CORNER + 2])
     nu, nv, nw = wf[g + CLEARANCE_COUNTS], wf[g + CLEARANCE_COUNTS + 1], wf[g + CLEARANCE_COUNTS + 2]
-    if not (0.0 <= u < nu and 0.0 <= v < nv and 0.0 <= w < nw):
+    if not (1.0 <= u < nu - 1.0 and 1.0 <= v < nv - 1.0 and 1.0 <= w < nw - 1.0):
         return False
-    edge, step, levels = wf[g + CLEARANCE_EDGE], wf[g + CLEARANCE_STEP], int(wf[g + CLEARANCE_LEVELS])
     i, j, k, ny, nz = int(u), int(v), int(w), int(nv), int(nw)
-    a, b, c = _beside(u, i, int(nu)), _beside(v, j, ny), _beside(w, k, nz)
-    dx, dy, dz = _off(edge, u, i), _off(edge, v, j), _off(edge, w, k)
-    column = (i * ny + j) * nz
-    own = _room(wi, levels, column + k, step, r, dx + dy + dz)
-    along_z = _room(wi, levels, column + c, step, r, dx + dy + _off(edge, w, c))
-    along_x = _room(wi, levels, (a * ny + j) * nz + k, step, r, _off(edge, u, a) + dy + dz)
-    along_y = _room(wi, levels, (i * ny + b) * nz + k, step, r, dx + _off(edge, v, b) + dz)
-    return max(own, along_z, along_x, along_y) > 0.0
+    dx, dy, dz = _off(u, i), _off(v, j), _off(w, k)
+    ex, ey, ez = CLEARANCE_STEPS - abs(dx), CLEARANCE_STEPS - abs(dy), CLEARANCE_STEPS - abs(dz)
+    steps = CLEARANCE_STEPS * scale * r
+    levels = int(wf[g + CLEARANCE_LEVELS])
+    column = levels + (i * ny + j) * nz
+    beside_x, beside_y = (_beside(i, dx) * ny + j) * nz, (i * ny + _beside(j, dy)) * nz
+    return (
+        max(
+            _room(wi, column + k, steps, dx, dy, dz),
+            _room(wi, column + _beside(k, dz), steps, dx, dy, ez),
+            _room(wi, levels + beside_x + k, steps, ex, dy, dz),
+            _room(wi, levels + beside_y + k, steps, dx, ey, dz),
+        )
+        > 0.0
+    )
 
 
 @entry
@@ -95,7 +99,8 @@ def measure_clearance(wf: Array, wi: Ints, s: Array, root: int, grid: Array, lev
     `grid` is a record as in the world's floats; `levels` has a number for each cube, z changing fastest.
     The search goes on from the cube before: clearances of neighbours differ by little.
     """
-    edge, step = grid[CLEARANCE_EDGE], grid[CLEARANCE_STEP]
+    edge = grid[CLEARANCE_EDGE]
+    step = edge / CLEARANCE_STEPS
     ny, nz = int(grid[CLEARANCE_COUNTS + 1]), int(grid[CLEARANCE_COUNTS + 2])
     level = 0
     for cube in range(len(levels)):

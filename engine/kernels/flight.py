@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING
 from engine.constants import CONTACT, EPS, EPS2, FLIGHT_STEPS, FREE_ROTATE, IS_VIEWER, ON_WALKABLE
 from engine.kernels.ahead import bring_near
 from engine.kernels.compile import inlined, kernel
+from engine.kernels.fours import FOUR, move_four, put_four
 from engine.kernels.frame import interpolated, is_unit, matrix_of, normalised
 from engine.kernels.path import placed
 from engine.kernels.plan import allows
@@ -25,8 +26,8 @@ from engine.kernels.plan_flight import (
 from engine.kernels.position import offset_between
 from engine.kernels.rounding import f32
 from engine.kernels.transition import calc_num_steps
-from engine.kernels.upright import is_off_zero, is_upright, placed_upright, turned_upright
-from engine.kernels.vector import copy, load, load_four, store, store_four
+from engine.kernels.upright import held_upright, is_off_zero, is_upright, placed_upright
+from engine.kernels.vector import load, load_four
 from engine.layout import (
     COLLISION_INFO,
     CONTACT_IS_WATER,
@@ -114,7 +115,7 @@ def _fly(wf: Array, wi: Ints, s: Array, q: Array, out: Array, cell: int, upright
 
     retail: FT-8, FT-11
     """
-    begin, end = load_four(q, Q_START + 1), load_four(q, Q_END + 1)
+    begin, end = load_four(q, Q_START + QUATERNION), load_four(q, Q_END + QUATERNION)
     place = load(q, Q_START + POSE_ORIGIN)
     x, y, z = offset_between(q[Q_START], place, q[Q_END], load(q, Q_END + POSE_ORIGIN))
     count, first, second = _spheres(q, upright)
@@ -126,17 +127,29 @@ def _fly(wf: Array, wi: Ints, s: Array, q: Array, out: Array, cell: int, upright
     if not cell_holds(wf, wi, cell, cx, cy, cz, far) or not opens_about(wf, wi, cell, cx, cy, cz, far):
         return False
     known = is_known_clear(wf, wi, cell, cx, cy, cz, far)
-    turn = turned_upright(begin, end) if upright else normalised(interpolated(begin, end, 1.0))
+    turn = held_upright(begin, end) if upright else normalised(interpolated(begin, end, 1.0))
     moved, there = _glide(place, sx, sy, sz, steps)
     if not moved or not is_unit(turn):
         return False
     _write_spheres(upright, out, turn, there, count, first, second)
-    _land(q, out, steps, turn, there)
-    if known:
-        return True
+    _land(q, out, count, steps, turn, there)
+    return known or _is_found_clear(wf, wi, s, q, out, cell)
+
+
+@kernel
+def _is_found_clear(wf: Array, wi: Ints, s: Array, q: Array, out: Array, cell: int) -> bool:
+    """Say whether a mover's way is clear of which that is not known at once, and write what that has cost.
+
+    All is taken from the query once more: it is seldom asked for, and kept in registers it would be in the
+    way of all others.
+    """
     s[NODES_VISITED] = 0.0
     s[POLYGONS_TESTED] = 0.0
-    clear = is_clear(wf, wi, s, cell, count, first, second, place, begin, end, way)
+    place, end = load(q, Q_START + POSE_ORIGIN), load(q, Q_END + POSE_ORIGIN)
+    way = offset_between(q[Q_START], place, q[Q_END], end)
+    count, first, second = _spheres(q, False)
+    turns = load_four(q, Q_START + QUATERNION), load_four(q, Q_END + QUATERNION)
+    clear = is_clear(wf, wi, s, cell, count, first, second, place, turns[0], turns[1], way)
     out[R_NODES_VISITED] = s[NODES_VISITED]
     out[R_POLYGONS_TESTED] = s[POLYGONS_TESTED]
     return clear
@@ -171,8 +184,8 @@ def _sphere(q: Array, at: int, upright: bool) -> Sphere:
 
 @inlined
 def _spheres(q: Array, upright: bool) -> tuple[float, Sphere, Sphere]:
-    """Return how many spheres the mover has, and the two that it may have."""
-    count = float(int(q[Q_NUM_SPHERE]))
+    """Return how many spheres the mover has, one or two, and both that it may have."""
+    count = 2.0 if q[Q_NUM_SPHERE] >= 2.0 else 1.0
     return count, _sphere(q, Q_SPHERES, upright), _sphere(q, Q_SPHERES + SPHERE_SIZE, upright)
 
 
@@ -196,9 +209,8 @@ def _glide(place: Vector, x: float, y: float, z: float, steps: float) -> tuple[b
 @inlined
 def _write_pose(out: Array, pose: int, cell: float, turn: Quaternion, place: Vector) -> None:
     """Write a pose to a row of results."""
-    out[pose] = cell
-    store_four(out, pose + QUATERNION, turn)
-    store(out, pose + POSE_ORIGIN, place[0], place[1], place[2])
+    put_four(out, pose, cell, turn[0], turn[1], turn[2])
+    put_four(out, pose + FOUR, turn[3], place[0], place[1], place[2])
 
 
 @inlined
@@ -222,12 +234,21 @@ def _write_spheres(
     if count > 1.0:
         ux, uy, uz = _placed(upright, turn, place, second[0], second[1], second[2])
         ur = second[3]
-    store_four(out, R_GLOBAL_SPHERES, (x, y, z, first[3]))
-    store_four(out, R_GLOBAL_SPHERES + SPHERE_SIZE, (ux, uy, uz, ur))
+    put_four(out, R_GLOBAL_SPHERES, x, y, z, first[3])
+    put_four(out, R_GLOBAL_SPHERES + SPHERE_SIZE, ux, uy, uz, ur)
 
 
 @inlined
-def _land(q: Array, out: Array, steps: float, turn: Quaternion, place: Vector) -> None:
+def _copy_planes(q: Array, out: Array) -> None:
+    """Hand on what the mover knows of contact planes: all that is before the sliding normal."""
+    last = SLIDING_VALID - FOUR
+    for i in range(LAST_KNOWN_VALID, last, FOUR):
+        move_four(out, _R + i, q, _Q + i)
+    move_four(out, _R + last, q, _Q + last)
+
+
+@inlined
+def _land(q: Array, out: Array, count: float, steps: float, turn: Quaternion, place: Vector) -> None:
     """Write the answer: where the mover is, and of the rest what a transition leaves that has met nothing.
 
     retail: VT-3, VT-11, VT-12
@@ -241,9 +262,9 @@ def _land(q: Array, out: Array, steps: float, turn: Quaternion, place: Vector) -
     _write_pose(out, R_CURR, home, turn, place)
     out[R_CHECK_CELL] = cell
     out[R_CURR_CELL] = cell
-    out[R_NUM_SPHERE] = int(q[Q_NUM_SPHERE])
-    out[R_COLLISION_INFO] = 0.0
-    copy(out, _R + LAST_KNOWN_VALID + 1, q, _Q + LAST_KNOWN_VALID + 1, SLIDING_VALID - LAST_KNOWN_VALID - 1)
+    out[R_NUM_SPHERE] = count
+    _copy_planes(q, out)
+    out[_R + LAST_KNOWN_VALID] = 0.0
     out[_R + CONTACT_VALID] = 0.0
     out[_R + CONTACT_IS_WATER] = 0.0
     out[_R + LAST_COLLIDED_OBJECT] = NO_OBJECT

@@ -213,7 +213,7 @@ def interpolated(begin: Quaternion, end: Quaternion, t: float) -> Quaternion:
     if c < 0.0:
         c = -c
         tw, tx, ty, tz = -tw, -tx, -ty, -tz
-    k0, k1 = interpolation_weights(c, t)
+    k0, k1 = _interpolation_weights(c, t)
     return f32(k0 * fw + tw * k1), f32(fx * k0 + tx * k1), f32(fy * k0 + ty * k1), f32(tz * k1 + fz * k0)
 
 
@@ -228,7 +228,7 @@ def frame_interpolate_rotation(a: Array, p: int, b: Array, start: int, end: int,
 
 
 @kernel
-def interpolation_weights(c: float, t: float) -> tuple[float, float]:
+def _interpolation_weights(c: float, t: float) -> tuple[float, float]:
     """Weigh two unit quaternions whose dot product is `c`.
 
     retail: Frame::interpolate_rotation 0x00535390, 01 4.8

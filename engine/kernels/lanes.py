@@ -24,6 +24,13 @@ def loaded(context: Any, builder: Any, signature: Any, arguments: Any, k: int, w
     return builder.load(builder.bitcast(place, _numbers(width).as_pointer()), align=_ELEMENT_BYTES)
 
 
+def stored(context: Any, builder: Any, array_type: Any, arguments: Any, numbers: Any) -> None:
+    """Generate the store of numbers side by side; the arguments are the array, and where to begin in it."""
+    array = context.make_array(array_type)(context, builder, arguments[0])
+    place = builder.bitcast(builder.gep(array.data, [arguments[1]]), numbers.type.as_pointer())
+    builder.store(numbers, place, align=_ELEMENT_BYTES)
+
+
 def spread(builder: Any, number: Any, width: int) -> Any:
     """Generate a number in each place."""
     nothing = ir.Constant(_numbers(width), ir.Undefined)

@@ -34,7 +34,7 @@ def block_offset(cell_from: float, cell_to: float) -> tuple[float, float]:
 
     retail: LandDefs::get_block_offset 0x0043E630, 01 5.1
     """
-    if int(cell_from) >> 16 == int(cell_to) >> 16:
+    if cell_from == cell_to or int(cell_from) >> 16 == int(cell_to) >> 16:
         return 0.0, 0.0
     fx, fy = _block_coordinates(cell_from)
     tx, ty = _block_coordinates(cell_to)

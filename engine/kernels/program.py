@@ -26,7 +26,15 @@ from engine.kernels.strangers import (
 from engine.kernels.tick import step
 from engine.kernels.tick_gates import update
 from engine.kernels.tick_placement import place
-from engine.layout import QUERY_SIZE, R_STATUS, RESULT_SIZE, STATUS_OK, STATUS_STRANGE
+from engine.layout import (
+    COLLISION_INFO_SIZE,
+    Q_COLLISION_INFO,
+    QUERY_SIZE,
+    R_STATUS,
+    RESULT_SIZE,
+    STATUS_OK,
+    STATUS_STRANGE,
+)
 
 if TYPE_CHECKING:
     from engine.kernels.types import Array, Ints, Order
@@ -53,6 +61,8 @@ The row of results is brought when half of the work before is done: more than a 
 processor waits for the first of them."""
 FAR_AHEAD: Final = frozen(4)
 """The same for what takes longer, and is brought only half the way."""
+_OF_MOVES: Final = frozen(Q_COLLISION_INFO + COLLISION_INFO_SIZE)
+"""Numbers of a query's row that a move reads: the rest is for single calls."""
 
 
 @kernel
@@ -105,7 +115,7 @@ def _resolve_some(
     failed = 0
     for k in range(first, last):
         i, later = turn(order, k), turn(order, min(k + AHEAD, last - 1))
-        bring_near(rows, QUERY_SIZE * later, QUERY_SIZE)
+        bring_near(rows, QUERY_SIZE * later, _OF_MOVES)
         if is_strange_move(wi, rows[i]):
             _refuse(out[i])
         else:

@@ -8,10 +8,11 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
+from engine.constants import EPS
 from engine.kernels.compile import inlined
-from engine.kernels.frame import interpolation_weights, normalising
+from engine.kernels.frame import normalising
 from engine.kernels.rounding import f32
-from engine.kernels.vector import load
+from engine.kernels.vector import load, load_four
 from engine.layout import Q_END, Q_NUM_SPHERE, Q_SPHERES, Q_START, QUATERNION, SPHERE_SIZE
 
 if TYPE_CHECKING:
@@ -20,37 +21,36 @@ if TYPE_CHECKING:
 
 @inlined
 def is_upright(q: Array) -> bool:
-    """Say whether a query is about an upright mover, at its begin and at its end."""
-    _, bx, by = load(q, Q_START + QUATERNION)
-    _, ex, ey = load(q, Q_END + QUATERNION)
+    """Say whether a query is about an upright mover, at its begin and at its end, that hardly turns.
+
+    Where both rotations are that near, Frame::interpolate_rotation goes straight from one to the other.
+    """
+    bw, bx, by, bz = load_four(q, Q_START + QUATERNION)
+    ew, ex, ey, ez = load_four(q, Q_END + QUATERNION)
     x, y, _ = load(q, Q_SPHERES)
     ux, uy, _ = load(q, Q_SPHERES + SPHERE_SIZE)
     return (
         (bx == 0.0 and by == 0.0 and ex == 0.0 and ey == 0.0)
         and (x == 0.0 and y == 0.0)
         and ((ux == 0.0 and uy == 0.0) or q[Q_NUM_SPHERE] < 2.0)
+        and 1.0 - (bw * ew + bz * ez) <= EPS
     )
 
 
 @inlined
-def turned_upright(begin: Quaternion, end: Quaternion) -> Quaternion:
-    """Return an upright mover's rotation at the end of its way, normalised.
+def held_upright(begin: Quaternion, end: Quaternion) -> Quaternion:
+    """Return the rotation of such a mover at the end of its way, normalised.
 
-    A zero of x or y has the sign that a sum with a product by the begin's weight of 0 gives it, and keeps
-    it: it is divided by what is positive.
+    The begin's has no weight there, and the end's all; but it decides the sign of a zero. One of x or y
+    keeps its sign: it is divided by what is positive.
 
     retail: Frame::interpolate_rotation 0x00535390, 01 4.8; Frame::set_rotate 0x00535080, 01 4.4
     """
     fw, fx, fy, fz = begin
     tw, tx, ty, tz = end
-    c = fw * tw + fz * tz
-    if c < 0.0:
-        c = -c
-        tw, tx, ty, tz = -tw, -tx, -ty, -tz
-    k0, k1 = interpolation_weights(c, 1.0)
-    w, z = f32(k0 * fw + tw * k1), f32(tz * k1 + fz * k0)
+    w, z = f32(0.0 * fw + tw), f32(tz + fz * 0.0)
     inv = normalising(w, 0.0, 0.0, z)
-    return f32(w * inv), fx * k0 + tx * k1, fy * k0 + ty * k1, f32(z * inv)
+    return f32(w * inv), fx * 0.0 + tx, fy * 0.0 + ty, f32(z * inv)
 
 
 @inlined

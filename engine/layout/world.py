@@ -268,18 +268,16 @@ CLEARANCE_CORNER: Final = frozen(0)
 CLEARANCE_COUNTS: Final = frozen(3)
 """Cubes along x, y, z."""
 CLEARANCE_LEVELS: Final = frozen(6)
-"""Where in the world's integers the cubes' levels begin, eight in each, z changing fastest."""
+"""The byte of the world's integers, eight in each, with which the cubes' levels begin, z changing fastest."""
 CLEARANCE_EDGE: Final = frozen(7)
 """Of a cube, metres."""
 CLEARANCE_PER_METRE: Final = frozen(8)
 """Cubes in a metre."""
-CLEARANCE_STEP: Final = frozen(9)
-"""What a level adds to the radius of the clear ball, metres."""
-CLEARANCE_SIZE: Final = frozen(10)
-CLEARANCE_SHIFT: Final = frozen(3)
-CLEARANCE_MASK: Final = frozen(7)
+CLEARANCE_SIZE: Final = frozen(9)
+CLEARANCE_STEPS: Final = frozen(8)
+"""Steps in an edge: each level adds one to the radius of the clear ball."""
 CLEARANCE_BITS: Final = frozen(8)
-"""An integer holds 2**3 levels of 8 bits, the first one lowest."""
+"""Of a level; the first one of an integer lies lowest."""
 CLEARANCE_MOST: Final = frozen(127)
 """Highest level."""
 NO_CLEARANCE: Final = frozen(0)

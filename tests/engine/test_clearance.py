@@ -43,7 +43,7 @@ def levels_of(world: World) -> Array:
     """Return the levels of all cubes, shape (x, y, z)."""
     grid = grid_of(world)
     counts = grid[at.CLEARANCE_COUNTS : at.CLEARANCE_COUNTS + 3].astype(int)
-    first = int(grid[at.CLEARANCE_LEVELS])
+    first = int(grid[at.CLEARANCE_LEVELS]) // 8
     packed = world.ints[first : first + -(-int(counts.prod()) // 8)]
     levels = packed[:, np.newaxis] >> 8 * np.arange(8) & 0xFF
     return levels.ravel()[: int(counts.prod())].reshape(counts)
@@ -65,7 +65,8 @@ def asked(kernel: Any, *arguments: Any) -> bool:
 
 def test_clearances_are_as_large_as_steps_allow() -> None:
     """Above a floor and beside a wall: that of the nearer one is less than a step more than the level."""
-    levels, middles, step = levels_of(CORNER), middles_of(CORNER), grid_of(CORNER)[at.CLEARANCE_STEP]
+    levels, middles = levels_of(CORNER), middles_of(CORNER)
+    step = grid_of(CORNER)[at.CLEARANCE_EDGE] / at.CLEARANCE_STEPS
     x, y, z = np.moveaxis(middles, -1, 0)
     inside = (np.abs(x) < 4.0) & (np.abs(y) < 2.0) & (z < 3.0)
     distance = np.minimum(z, np.abs(x - 1.0))[inside]
