@@ -105,6 +105,16 @@ def negative(wi: Ints, node: int) -> int:
 
 
 @inlined
+def leaf_of(wf: Array, wi: Ints, root: int, x: float, y: float, z: float) -> int:
+    """Return the leaf that a point is in; one that is on a plane is in front of it."""
+    node = root
+    while not is_leaf(wi, node):
+        behind = splitting_distance(wf, node, x, y, z) < 0.0
+        node = negative(wi, node) if behind else positive(node)
+    return node
+
+
+@inlined
 def leaf_polygons(wi: Ints, leaf: int) -> tuple[int, int]:
     """Return where a leaf's list of polygons begins, and its length."""
     at = unsigned(NODE_INTS * leaf)

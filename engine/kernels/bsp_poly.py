@@ -13,6 +13,7 @@ from engine.kernels.bsp_node import (
     is_leaf,
     is_solid,
     is_wide,
+    leaf_of,
     leaf_polygons,
     negative,
     positive,
@@ -259,9 +260,5 @@ def point_intersects_solid(wf: Array, wi: Ints, root: int, x: float, y: float, z
 
     retail: BSPNODE::point_intersects_solid 0x0053C310, 03 7
     """
-    node = root
-    while not is_leaf(wi, node):
-        behind = splitting_distance(wf, node, x, y, z) < 0.0
-        node = negative(wi, node) if behind else positive(node)
-    _, count = leaf_polygons(wi, node)
+    _, count = leaf_polygons(wi, leaf_of(wf, wi, root, x, y, z))
     return count != 0

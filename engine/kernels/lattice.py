@@ -10,7 +10,8 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from engine.constants import LATTICE_REACH
+from engine.constants import EPS, LATTICE_REACH
+from engine.kernels.bsp_node import is_solid, leaf_of, leaf_polygons
 from engine.kernels.compile import inlined, kernel
 from engine.kernels.indexing import unsigned
 from engine.kernels.plan import allows
@@ -114,6 +115,27 @@ def _listed(wi: Ints, root: int, i: int) -> int:
     return half(wi, wi[unsigned(NODE_INTS * (root + GATE) + LATTICE_LISTS)], i)
 
 
+@inlined
+def _may_be_solid(
+    wf: Array, wi: Ints, root: int, word: int, x: float, y: float, z: float, r: float, center_check: int
+) -> bool:
+    """Say whether a walk may come to a solid leaf whose flag counts for a sphere in the cube of a word.
+
+    A leaf's flag counts, if at all, on the side of the centre of every plane that the sphere straddles. It is
+    on no other side of the planes that it doesn't, if it reaches farther than 0: so that leaf is the one that
+    the centre is in. A bounding sphere may end the walk before it, which is then made for nothing.
+
+    retail: BSPNODE::sphere_intersects_solid 0x0053CAF0, SO-3...SO-6
+    """
+    if not word & WORD_SOLID or center_check == 0:
+        return False
+    if not r > EPS:
+        return True
+    leaf = leaf_of(wf, wi, root, x, y, z)
+    _, count = leaf_polygons(wi, leaf)
+    return count != 0 and is_solid(wi, leaf)
+
+
 @kernel
 def nothing_near(
     wf: Array, wi: Ints, s: Array, root: int, x: float, y: float, z: float, r: float, center_check: int
@@ -124,7 +146,7 @@ def nothing_near(
 
     The polygons that the centre's cube lists are asked as a walk asks them. If none is HIT, no leaf that a
     walk comes to has one, whichever those are; it would end with the polygon that it began with, and with no
-    answer but that of a solid leaf. Whether there may be one, the cube says, too.
+    answer but that of a solid leaf. Whether there may be one near, the cube says, too.
 
     A walk may leave a point of contact, too, which a transition never reads (03, 16), and counters of work.
 
@@ -132,7 +154,7 @@ def nothing_near(
     BSPNODE::sphere_intersects_solid 0x0053CAF0, SO-6...SO-8
     """
     word, first, end = _what_is_near(wf, wi, s, root, x, y, z, r)
-    if _is_unknown(word) or (word & WORD_SOLID and center_check != 0):
+    if _is_unknown(word) or _may_be_solid(wf, wi, root, word, x, y, z, r, center_check):
         return False
     s[POLYGONS_TESTED] += end - first
     for i in range(first, end):

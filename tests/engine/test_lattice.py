@@ -19,7 +19,7 @@ from conformance.bench.spots import Surfaces
 from engine import Cell, Leaf, Move, Node, Plan, Pose, Shape, Stage, World, find_collisions_many, resolve
 from engine import layout as at
 from engine.compiling import lattice
-from engine.constants import FLOOR_Z, LATTICE_REACH
+from engine.constants import EPS, FLOOR_Z, LATTICE_REACH
 from engine.kernels.bsp_poly import sphere_intersects_poly, sphere_intersects_solid
 from engine.kernels.bsp_walkable import find_walkable
 from engine.kernels.lattice import no_ground_near, nothing_near
@@ -187,6 +187,37 @@ def test_a_centre_in_solid_matter_that_touches_no_polygon() -> None:
     assert sphere_intersects_solid(world.floats, world.ints, row, root, *below, 1)
     assert not sphere_intersects_solid(world.floats, world.ints, row, root, *below, 0)
     assert [is_clear(world, *below, flag) for flag in (0, 1)] == [True, False]
+
+
+@pytest.mark.parametrize(
+    ("center", "r", "known"),
+    [
+        ((0.0, 0.0, 0.06), 0.05, True),
+        ((0.0, 0.0, -0.06), 0.05, False),
+        ((0.0, 0.0, 0.06), EPS, False),
+        ((0.0, 0.0, 0.06), math.nextafter(EPS, 1.0), True),
+        ((0.0, 0.0, -0.0001), 0.0, False),
+    ],
+    ids=[
+        "before it",
+        "in it",
+        "of no reach",
+        "of hardly any",
+        "a point in it, to retail before it",
+    ],
+)
+def test_solid_matter_beside_a_centre(center: tuple[float, float, float], r: float, known: bool) -> None:
+    """It counts if the centre is in it: no walk is needed to tell, but for a sphere without reach."""
+    corners = [(-4.0, -4.0, -0.25), (4.0, -4.0, -0.25), (4.0, 4.0, -0.25), (-4.0, 4.0, -0.25)]
+    bounds = (0.0, 0.0, 0.0, 9.0)
+    tree = Node((0.0, 0.0, 1.0, 0.0), bounds, Leaf(bounds, ()), Leaf(bounds, (0,), solid=True))
+    world = world_of(Shape(corners, [range(4)], tree))
+    assert any(words_of(world) & at.WORD_SOLID)
+    assert is_clear(world, *center, r, 1) == known
+    solid = sphere_intersects_solid(
+        world.floats, world.ints, world.new_row(), world.tree_of(0), *center, r, 1
+    )
+    assert not (known and solid)
 
 
 def hit(world: World, x: float, y: float, z: float, r: float) -> Iterator[int]:
