@@ -175,14 +175,14 @@ def read_inputs(op: str, record: Mapping[str, Any]) -> dict[str, Any]:
     if required is None:
         raise UnknownOperationError(op)
     known = {*required, *OPTIONAL.get(op, ())}
-    for key in required:
-        if key not in record:
-            raise FieldError(key, "nothing", f"an input of {op}")
-    for key in record:
+    for key in record:  # before what is missing: a name that is mistyped is both
         if key not in known and key not in _BOOKKEEPING:
             near = difflib.get_close_matches(key, known, n=1)
             expected = f"one of {', '.join(sorted(known))}" if not near else f"perhaps {near[0]!r}"
             raise FieldError(key, "an unknown input", expected)
+    for key in required:
+        if key not in record:
+            raise FieldError(key, "nothing", f"an input of {op}")
     return {key: _read(key, record[key], key) for key in record if key in known}
 
 

@@ -115,6 +115,8 @@ def test_an_unknown_input_hints_at_the_nearest() -> None:
     """A mistyped input names the one that was meant."""
     with pytest.raises(FieldError, match="perhaps 'from_cell'"):
         read_inputs("block_offset", {"from_cell": 1, "to_cell": 2, "fromm_cell": 2})
+    with pytest.raises(FieldError, match="an unknown input, expected perhaps 'from_cell'"):
+        read_inputs("block_offset", {"to_cell": 2, "fromm_cell": 2})
 
 
 def test_a_query_needs_an_operation() -> None:
