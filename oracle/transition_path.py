@@ -31,7 +31,7 @@ def find_transitional_position(self: Transition) -> int:
     retail: CTransition::find_transitional_position 0x0050BDF0, 05 FT-1…15.
     """
     sp, ci, oi = self.sphere_path, self.collision_info, self.object_info
-    # FT-1
+    # FT-1; without a begin position a path is a placement, which does not come here
     begin_pos, end_pos = sp.begin_pos, sp.end_pos
     if sp.begin_cell is None or begin_pos is None or end_pos is None:
         return 0

@@ -29,11 +29,6 @@ UNKNOWN: Final = Reason(
 POLYGONS: Final = Reason(Kind.NO_INPUT, "polygons have three corners or more")
 LISTED: Final = Reason(Kind.NO_INPUT, "what is pruned is in the list")
 ON_THE_MAP: Final = Reason(Kind.NO_INPUT, "adjust_to_outside has just made the id of a land cell (10 2.8)")
-ROOT: Final = Reason(
-    Kind.NO_INPUT,
-    "the sphere that has hit is nearer to the axis than the radius sum, so its way has a root; and the sum of"
-    " two squares of float32 is EPS to the last bit only by accident",
-)
 OWN_SHADOW: Final = Reason(Kind.NO_INPUT, "an object's shadow is in the cells that it was put in")
 NOT_A_NUMBER: Final = Reason(
     Kind.NO_INPUT, "set_rotate puts the old quaternion back before it is not a number"
@@ -46,7 +41,6 @@ DECIDED: Final = Reason(Kind.NO_INPUT, "an insert has at least one attempt, whic
 REASONS: Final[Reasons] = {
     "bsp_node.BSPNode.children": {"if self.pos_node is None or self.neg_node is None: true": CHECKED},
     "cell_array.CellArray.remove_cell": {"if not self.cells: true": LISTED},
-    "cyl_sphere_clip._touch_corner": {"if disc >= 0.0 and a > EPS: false": ROOT},
     "env_cell.CellPortal.required_plane": {"if self.plane is None: true": CHECKED},
     "obj_cell.ObjCell.remove_shadow_object": {"if found is not None: false": OWN_SHADOW},
     "object_info.ObjectInfo.mover": {"if self.object is None: true": NO_OBJECT},
