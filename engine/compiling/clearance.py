@@ -24,7 +24,9 @@ _LEAST_EDGE: Final = 0.5
 _CUBES_PER_POLYGON: Final = 128
 """A grid's size, and the time that it takes to make, are bounded by those of its geometry,"""
 _MOST_CUBES: Final = 2**20
-"""and by this: a byte each."""
+"""by this: a byte each,"""
+_MOST_TESTS: Final = 2**26
+"""and by how many polygons are tested at most if one leaf that lists many is near to all cubes."""
 _BYTES: Final = 8
 """Of an integer."""
 
@@ -48,7 +50,9 @@ def write_clearances(storage: Storage, trees: CellTrees, cells: Sequence[Cell]) 
 
 def _grid_about(shape: Shape) -> Array:
     """Divide the box about a shape into cubes: not too many, nor too small."""
-    most = min(_CUBES_PER_POLYGON * len(shape.polygon_offsets), _MOST_CUBES)
+    leaves = shape.node_ints[:, at.NODE_KIND] != at.KIND_NODE
+    longest = int(shape.node_ints[leaves, at.LEAF_COUNT].max())
+    most = min(_CUBES_PER_POLYGON * len(shape.polygon_offsets), _MOST_CUBES, _MOST_TESTS // max(longest, 1))
     cubes = next(cubes_about(shape, _LEAST_EDGE, most))
     grid = np.zeros(int(at.CLEARANCE_SIZE), dtype=np.float64)
     grid[at.CLEARANCE_CORNER : at.CLEARANCE_CORNER + at.VECTOR_SIZE] = cubes.corner

@@ -25,7 +25,9 @@ _CUBES_PER_POLYGON: Final = 1024
 _MOST_CUBES: Final = 2**21
 """and by this: most cubes are of blocks that are kept once."""
 _TESTS_PER_POLYGON: Final = 16384
-"""How many cubes a polygon may be held against on average: some 10 ns each, twice."""
+"""How many cubes a polygon may be held against on average: some 10 ns each, twice;"""
+_MOST_TESTS: Final = 2**28
+"""and all together."""
 _LISTED_PER_POLYGON: Final = 96
 """Numbers in all lists together: of a cube that has no room for its own, nothing is known,"""
 _MOST_LISTED: Final = 1 << int(at.WORD_BITS - at.WORD_LIST_SHIFT)
@@ -75,6 +77,7 @@ def _divided(shape: Shape, balls: Array) -> tuple[Cubes, Ints]:
     """
     number = len(shape.polygon_offsets)
     most = min(_CUBES_PER_POLYGON * number, _MOST_CUBES)
+    tests = min(_TESTS_PER_POLYGON * number, _MOST_TESTS)
     block = 1 << int(at.LATTICE_BLOCK)
     far = BOUND_SLACK + BOUND_ROUNDING * 2.0 * float(np.abs(shape.bounds).sum())
     for cubes in cubes_about(shape, _LEAST_EDGE, most, block):
@@ -82,7 +85,7 @@ def _divided(shape: Shape, balls: Array) -> tuple[Cubes, Ints]:
         middles = balls[:, : at.VECTOR_SIZE] - cubes.corner
         begins = np.clip(np.floor((middles - reach) / cubes.edge) - 1.0, 0.0, cubes.counts)
         ends = np.clip(np.floor((middles + reach) / cubes.edge) + 2.0, 0.0, cubes.counts)
-        if (ends - begins).prod(axis=1).sum() <= _TESTS_PER_POLYGON * number or cubes.size == block**3:
+        if (ends - begins).prod(axis=1).sum() <= tests or cubes.size == block**3:
             break
     return cubes, np.hstack((begins, ends)).astype(np.int64)
 

@@ -127,3 +127,16 @@ def test_a_grid_is_not_larger_than_its_geometry_pays_for(size: float) -> None:
     counts = grid[at.CLEARANCE_COUNTS : at.CLEARANCE_COUNTS + 3]
     assert 1 <= counts.prod() <= clearance._CUBES_PER_POLYGON
     assert (counts * grid[at.CLEARANCE_EDGE] >= (2 * size, 2 * size, 0.0)).all()
+
+
+def test_a_leaf_that_lists_many_has_few_cubes() -> None:
+    """Each cube may have to look at all of it: a floor of 4,096 tiles without a tree takes no minutes."""
+    side = 8.0 * np.arange(65)
+    corners = [(x, y, x * y / 4096.0) for x in side for y in side]
+    tiles = [(k, k + 65, k + 66, k + 1) for k in range(65 * 64) if k % 65 != 64]
+    world = world_of(Shape(corners, tiles, Leaf((256.0, 256.0, 32.0, 400.0), range(len(tiles)))))
+    counts = grid_of(world)[at.CLEARANCE_COUNTS : at.CLEARANCE_COUNTS + 3]
+    assert len(tiles) == 4096
+    assert (
+        1 <= counts.prod() <= clearance._MOST_TESTS // len(tiles) < clearance._CUBES_PER_POLYGON * len(tiles)
+    )

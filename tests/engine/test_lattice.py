@@ -359,3 +359,10 @@ def test_a_lattice_is_not_larger_than_its_geometry_pays_for(size: float) -> None
     counts = floats[at.LATTICE_COUNTS :][:3]
     assert 1 << 3 * int(at.LATTICE_BLOCK) <= counts.prod() <= lattice._CUBES_PER_POLYGON
     assert (counts / floats[at.LATTICE_PER_METRE] >= (2 * size, 2 * size, 0.0)).all()
+
+
+def test_a_lattice_is_coarser_if_it_would_take_long(monkeypatch: pytest.MonkeyPatch) -> None:
+    """However many polygons are held against however many cubes."""
+    fine = gate_of(make_scene("room").world)[0][at.LATTICE_PER_METRE]
+    monkeypatch.setattr(lattice, "_MOST_TESTS", 10_000)
+    assert gate_of(make_scene("room").world)[0][at.LATTICE_PER_METRE] < 0.5 * fine
