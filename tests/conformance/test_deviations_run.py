@@ -138,10 +138,16 @@ def test_a_suggestion(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> Non
     assert capsys.readouterr().out == 'engine: "oracle"\ndeviations: []\n'
 
 
-@pytest.mark.parametrize(
-    "words", [["--suggest", "a.yaml"], ["--poses", "1"], ["--suggest", "--poses", "-1"], ["nowhere.yaml"]]
-)
+@pytest.mark.parametrize("words", [["--suggest", "a.yaml"], ["--poses", "1"], ["nowhere.yaml"]])
 def test_usage(words: list[str], capsys: pytest.CaptureFixture[str]) -> None:
     """What cannot be meant is told."""
     assert main(["deviations", *words]) == 2
     assert capsys.readouterr().err.startswith("conformance deviations: ")
+
+
+def test_fewer_poses_than_none_are_refused(capsys: pytest.CaptureFixture[str]) -> None:
+    """By the option itself, which says what it takes."""
+    with pytest.raises(SystemExit) as stop:
+        main(["deviations", "--suggest", "--poses", "-1"])
+    assert stop.value.code == 2
+    assert "argument --poses: found -1, expected a whole number, 0 or more" in capsys.readouterr().err
