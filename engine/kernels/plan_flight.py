@@ -103,6 +103,14 @@ def _cell_rounding(wf: Array, p: int) -> float:
 
 
 @inlined
+def _ball_into_cell(wf: Array, wi: Ints, cell: int, x: float, y: float, z: float, r: float) -> Sphere:
+    """Take a ball of a cell's block into the cell's frame, larger by what roundings may misplace it."""
+    p = position_of(wi, cell)
+    lx, ly, lz = _into_cell(wf, p, x, y, z)
+    return lx, ly, lz, r + _cell_rounding(wf, p)
+
+
+@inlined
 def cell_holds(wf: Array, wi: Ints, cell: int, x: float, y: float, z: float, r: float) -> bool:
     """Say whether an environment cell contains all points of a ball of its block.
 
@@ -111,8 +119,7 @@ def cell_holds(wf: Array, wi: Ints, cell: int, x: float, y: float, z: float, r: 
     ints = ints_of(wi, cell)
     if wi[ints + CELL_PORTAL_COUNT] == NO_PORTALS:
         return False
-    lx, ly, lz = _into_cell(wf, position_of(wi, cell), x, y, z)
-    far = r + _cell_rounding(wf, position_of(wi, cell))
+    lx, ly, lz, far = _ball_into_cell(wf, wi, cell, x, y, z, r)
     first = wi[ints + CELL_PLANES]
     for i in range(wi[ints + CELL_PLANE_COUNT]):
         if not plane_distance(wf, first + PLANE_SIZE * i, lx, ly, lz) > far:
@@ -196,9 +203,8 @@ def opens_about(wf: Array, wi: Ints, cell: int, x: float, y: float, z: float, r:
 @inlined
 def is_known_clear(wf: Array, wi: Ints, cell: int, x: float, y: float, z: float, r: float) -> bool:
     """Say whether a ball of an environment cell's block is known to touch nothing of the cell's tree."""
-    p = position_of(wi, cell)
-    lx, ly, lz = _into_cell(wf, p, x, y, z)
-    return known_clear(wf, wi, cell, lx, ly, lz, r + _cell_rounding(wf, p))
+    lx, ly, lz, far = _ball_into_cell(wf, wi, cell, x, y, z, r)
+    return known_clear(wf, wi, cell, lx, ly, lz, far)
 
 
 @kernel
@@ -206,9 +212,7 @@ def _ball_is_clear(
     wf: Array, wi: Ints, s: Array, cell: int, root: int, x: float, y: float, z: float, r: float
 ) -> bool:
     """Say whether a ball of an environment cell's block touches nothing of its tree, known or to be found."""
-    p = position_of(wi, cell)
-    lx, ly, lz = _into_cell(wf, p, x, y, z)
-    far = r + _cell_rounding(wf, p)
+    lx, ly, lz, far = _ball_into_cell(wf, wi, cell, x, y, z, r)
     return known_clear(wf, wi, cell, lx, ly, lz, far) or tree_beyond(wf, wi, s, root, lx, ly, lz, far)
 
 
