@@ -27,7 +27,7 @@ rounding, which is far less."""
 
 
 def write_slopes(floats: Array, ints: Ints, trees: Mapping[int, Shape], num_parts: int) -> None:
-    """Note in each leaf that is not wide which of its polygons may be walked on, and along which up.
+    """Note in each leaf that is not wide which of its polygons may be walked on; in the gate, along which up.
 
     A tree that several cells or parts have in common is measured along the up of the first of them.
 
@@ -67,7 +67,7 @@ def _first_places(ints: Ints, num_parts: int) -> dict[int, int]:
 
 
 def _note(floats: Array, ints: Ints, root: int, shape: Shape, up: Array) -> None:
-    """Measure the slopes of a tree, and write them to its leaves."""
+    """Measure the slopes of a tree, and write them to its leaves, and the up to its gate."""
     nodes = shape.node_ints
     leaves = np.flatnonzero(
         (nodes[:, at.NODE_KIND] != at.KIND_NODE) & (nodes[:, at.LEAF_COUNT] < at.WIDE_LEAF)
@@ -77,7 +77,8 @@ def _note(floats: Array, ints: Ints, root: int, shape: Shape, up: Array) -> None
     masks = np.zeros(len(leaves), dtype=np.int64)
     np.add.at(masks, owners, bits)
     ints[at.NODE_INTS * (root + leaves) + at.NODE_NEXT] |= masks << at.LEAF_SLOPES_SHIFT
-    floats[(at.NODE_FLOATS * (root + leaves) + at.LEAF_UP)[:, None] + np.arange(len(up))] = up
+    gate = int(at.NODE_FLOATS * (root + at.GATE) + at.GATE_UP)
+    floats[gate : gate + len(up)] = up
 
 
 def _too_steep(shape: Shape, up: Array) -> Array:

@@ -35,7 +35,7 @@ class Storage:
     """
 
     def __init__(self, shapes: Sequence[Shape]) -> None:
-        nodes = int(at.FIRST_NODE) + sum(len(shape.node_ints) - int(at.GATE) for shape in shapes)
+        nodes = int(at.FIRST_NODE) + sum(len(shape.node_ints) + int(at.GATE_NODES) for shape in shapes)
         header_nodes = int(at.FIRST_NODE)
         self._node_floats: list[Array] = [np.zeros(at.NODE_FLOATS * header_nodes, dtype=np.float64)]
         self._node_ints: list[Ints] = [np.zeros(at.NODE_INTS * header_nodes, dtype=np.int64)]
@@ -51,8 +51,8 @@ class Storage:
         first = header_nodes
         for index, shape in enumerate(shapes):
             self._add_gate(shape)
-            self._add_shape(index, shape, first - int(at.GATE))
-            first += len(shape.node_ints) - int(at.GATE)
+            self._add_shape(index, shape, first + int(at.GATE_NODES))
+            first += int(at.GATE_NODES) + len(shape.node_ints)
 
     def align(self) -> None:
         """Let the next numbers begin where a cache line does."""
@@ -104,13 +104,13 @@ class Storage:
         return nodes
 
     def _add_gate(self, shape: Shape) -> None:
-        """Append what stands before a root, in the room of a node."""
-        floats: Array = np.zeros(at.NODE_FLOATS, dtype=np.float64)
-        ints: Ints = np.zeros(at.NODE_INTS, dtype=np.int64)
-        floats[at.GATE_RADIUS] = gate_radius(shape)
-        self._node_floats.append(floats)
-        self._node_ints.append(ints)
-        self._gates[id(shape)] = floats, ints
+        """Append what stands before a root, in the room of two nodes."""
+        floats: Array = np.zeros((at.GATE_NODES, at.NODE_FLOATS), dtype=np.float64)
+        ints: Ints = np.zeros((at.GATE_NODES, at.NODE_INTS), dtype=np.int64)
+        floats[at.GATE, at.GATE_RADIUS] = gate_radius(shape)
+        self._node_floats.append(floats.ravel())
+        self._node_ints.append(ints.ravel())
+        self._gates[id(shape)] = floats[at.GATE], ints[at.GATE]
 
     def _add_shape(self, index: int, shape: Shape, first: int) -> None:
         """Append a shape; its tree gets node numbers from `first` on."""

@@ -13,11 +13,12 @@ from engine.kernels.compile import inlined
 from engine.kernels.indexing import unsigned
 from engine.kernels.polygon import plane_distance
 from engine.layout import (
+    GATE,
+    GATE_UP,
     LEAF_COUNT_SHIFT,
     LEAF_FIRST_MASK,
     LEAF_PLANES,
     LEAF_SLOPES_SHIFT,
-    LEAF_UP,
     NODE_FLOATS,
     NODE_INTS,
     NODE_LEAF,
@@ -122,23 +123,28 @@ def leaf_polygons(wi: Ints, leaf: int) -> tuple[int, int]:
 
 
 @inlined
-def slopes(
-    wf: Array, wi: Ints, leaf: int, count: int, ux: float, uy: float, uz: float, allowance: float
-) -> int:
-    """Return a bit for each polygon of a leaf's list that may be flat enough; the leaf is not wide.
+def knows_slopes(wf: Array, root: int, ux: float, uy: float, uz: float, allowance: float) -> bool:
+    """Say whether leaves know which polygons are too steep for an up and an allowance.
 
-    `count`: how many it lists. Those without a bit are too steep for every allowance of at least FLOOR_Z and
-    every up near `LEAF_UP`: along an up whose coordinates differ from it by d in all, the component of a
-    normal n is not more than d * max(|nx|, |ny|, |nz|) larger, and they lack more than that
-    (`engine.compiling.slopes`). To any other question, NaN among them, each polygon has to answer itself.
+    They know for every allowance of at least FLOOR_Z and every up near `GATE_UP`: along an up whose
+    coordinates differ from it by d in all, the component of a normal n is not more than d * max(|nx|, |ny|,
+    |nz|) larger, and those without a bit lack more than that (`engine.compiling.slopes`). To any other
+    question, NaN among them, each polygon has to answer itself.
 
     retail: WH-1
     """
-    up = unsigned(NODE_FLOATS * leaf + LEAF_UP)
+    up = unsigned(NODE_FLOATS * (root + GATE) + GATE_UP)
     apart = abs(ux - wf[up]) + abs(uy - wf[up + 1]) + abs(uz - wf[up + 2])
-    if apart <= UP_SLACK and allowance >= FLOOR_Z:
-        return wi[unsigned(NODE_INTS * leaf + NODE_NEXT)] >> LEAF_SLOPES_SHIFT
-    return (1 << count) - 1
+    return apart <= UP_SLACK and allowance >= FLOOR_Z
+
+
+@inlined
+def slopes(wi: Ints, leaf: int, count: int, known: bool) -> int:
+    """Return a bit for each polygon of a leaf's list that may be flat enough; the leaf is not wide.
+
+    `count`: how many it lists; `known`: what `knows_slopes` says.
+    """
+    return wi[unsigned(NODE_INTS * leaf + NODE_NEXT)] >> LEAF_SLOPES_SHIFT if known else (1 << count) - 1
 
 
 @inlined

@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING
 
 from engine.constants import EPS, GATE_WAY
 from engine.kernels.abreast import lowest
-from engine.kernels.bsp_node import descend, in_bounds, is_leaf, is_wide, leaf_polygons, slopes
+from engine.kernels.bsp_node import descend, in_bounds, is_leaf, is_wide, knows_slopes, leaf_polygons, slopes
 from engine.kernels.bsp_wide import find_walkable_on
 from engine.kernels.compile import entry, inlined
 from engine.kernels.gate import unbounded
@@ -45,10 +45,11 @@ def _leaf_find_walkable(
     uz: float,
     poly: int,
     free: bool,
+    known: bool,
 ) -> tuple[int, float, float, float]:
     """Put the sphere on every polygon of a leaf that takes it; the last one wins.
 
-    `free`: of the leaf's bounding sphere.
+    `free`: of the leaf's bounding sphere; `known`: what slopes are (`engine.kernels.bsp_node.knows_slopes`).
 
     retail: FW-4, FW-5
     """
@@ -56,7 +57,7 @@ def _leaf_find_walkable(
     if count == 0 or not (free or in_bounds(wf, leaf, x, y, z, r)):
         return poly, x, y, z
     allowance = s[WALKABLE_ALLOWANCE]
-    left = slopes(wf, wi, leaf, count, ux, uy, uz, allowance)
+    left = slopes(wi, leaf, count, known)
     while left != 0:
         p = wi[unsigned(first + lowest(left))]
         left &= left - 1
@@ -102,6 +103,7 @@ def find_walkable(
     poly = NO_POLYGON
     nodes = 0
     free = abs(mx) + abs(my) + abs(mz) < GATE_WAY and unbounded(wf, s, root, x, y, z, r)
+    known = knows_slopes(wf, root, ux, uy, uz, s[WALKABLE_ALLOWANCE])
     while True:
         nodes += 1
         if is_leaf(wi, node):
@@ -109,7 +111,7 @@ def find_walkable(
                 s[NODES_VISITED] += nodes - 1
                 return find_walkable_on(wf, wi, s, node, top, x, y, z, r, mx, my, mz, ux, uy, uz, poly)
             poly, x, y, z = _leaf_find_walkable(
-                wf, wi, s, node, x, y, z, r, mx, my, mz, ux, uy, uz, poly, free
+                wf, wi, s, node, x, y, z, r, mx, my, mz, ux, uy, uz, poly, free, known
             )
         elif free or in_bounds(wf, node, x, y, z, r):
             node, top = descend(wf, wi, s, node, x, y, z, reach, top)

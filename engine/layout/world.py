@@ -30,8 +30,10 @@ SOLID_BIT: Final = frozen(2)
 LEAF_COUNT_SHIFT: Final = frozen(2)
 WIDE_LEAF: Final = frozen(24)
 """How many polygons a wide leaf lists at least: walks go on in `engine.kernels.bsp_wide` there."""
+GATE_NODES: Final = frozen(2)
+"""Before each root there is room for two more nodes, the gate of the tree: what walks are told of it."""
 GATE: Final = frozen(-1)
-"""Before each root there is room for one more node, the gate of the tree: what walks are told of it."""
+"""The second of them, of which most is read."""
 GATE_RADIUS: Final = frozen(0)
 """Of a gate's floats: of how large a sphere the walk needs no bounding spheres, metres, or `NO_GATE`
 (`engine.kernels.gate`)."""
@@ -43,6 +45,9 @@ LATTICE_PER_METRE: Final = frozen(4)
 """Cubes in a metre."""
 LATTICE_COUNTS: Final = frozen(5)
 """Cubes along x, y, z, in whole blocks; 0 in a tree without."""
+GATE_UP: Final = frozen(-NODE_FLOATS)
+"""In the first of them: the up that slopes have been measured along, a vector in the frame of the tree; 0 if
+none have been."""
 LATTICE_TABLE: Final = frozen(0)
 """Of a gate's integers: where the table begins of where the words of each block of cubes do."""
 LATTICE_LISTS: Final = frozen(1)
@@ -64,8 +69,6 @@ CROWDED: Final = frozen(31)
 LEAF_PLANES: Final = frozen(0)
 """Of a leaf's floats, in a tree that has a wide one: where in the world's floats the planes of its polygons
 begin, in blocks of `ABREAST`."""
-LEAF_UP: Final = frozen(1)
-"""Behind it, of a leaf that is not wide, the up that slopes have been measured along: a vector."""
 ABREAST: Final = frozen(8)
 """Planes in a block: first all x components, then y, z and d."""
 

@@ -11,7 +11,7 @@ from engine_scenes import CELL, floor_and_wall, world_of
 from engine import Cell, Leaf, Node, Obstacle, Part, Pose, Shape, World
 from engine import layout as at
 from engine.constants import FLOOR_Z, HAS_PHYSICS_BSP, UP_SLACK, Z_LANDING
-from engine.kernels.bsp_node import slopes
+from engine.kernels.bsp_node import knows_slopes, slopes
 from engine.kernels.bsp_walkable import find_walkable
 from engine.tracing_interpreter import Interpreter
 
@@ -23,23 +23,29 @@ HALF = float(np.float32(np.sqrt(0.5)))
 ON_ITS_SIDE = (HALF, 0.0, HALF, 0.0)
 """A quarter turn about y, as w, x, y, z: up in the block is -x in the cell, where the wall faces."""
 ASKED = Interpreter({})
-UNMEASURED = Interpreter({slopes: lambda _wf, _wi, _leaf, count, *_: (1 << count) - 1})
+UNMEASURED = Interpreter({knows_slopes: lambda *_: False})
 """Walks that know nothing of slopes."""
 SIZE = 12
 SPHERES = 1000
 
 
-def noted(world: World, node: int) -> tuple[int, list[float]]:
-    """Return which polygons of a leaf may be walked on, and along which up."""
-    up = at.NODE_FLOATS * node + at.LEAF_UP
-    mask = world.ints[at.NODE_INTS * node + at.NODE_NEXT] >> at.LEAF_SLOPES_SHIFT
-    return int(mask), world.floats[up : up + 3].tolist()
+def noted(world: World, leaf: int) -> int:
+    """Return which polygons of a leaf may be walked on."""
+    return int(world.ints[at.NODE_INTS * leaf + at.NODE_NEXT] >> at.LEAF_SLOPES_SHIFT)
+
+
+def measured(world: World, root: int) -> list[float]:
+    """Return along which up the slopes of a tree are known."""
+    up = at.NODE_FLOATS * (root + at.GATE) + at.GATE_UP
+    along: list[float] = world.floats[up : up + 3].tolist()
+    return along
 
 
 def asked(world: World, up: tuple[float, ...], allowance: float) -> int:
     """Return the polygons that the first leaf of `floor_and_wall` has looked at for a question."""
-    leaf = world.tree_of(0) + 1
-    mask: int = ASKED.function(slopes)(world.floats, world.ints, leaf, 2, *up, allowance)
+    root = world.tree_of(0)
+    known = ASKED.function(knows_slopes)(world.floats, root, *up, allowance)
+    mask: int = ASKED.function(slopes)(world.ints, root + 1, 2, known)
     return mask
 
 
@@ -59,10 +65,8 @@ def test_leaves_tell_floors_from_walls(rotation: tuple[float, ...], mask: int, u
     """By the up of the cell: laid on its side, its wall is what one walks on."""
     world = World([Cell(CELL, Pose(CELL, (0.0, 0.0, 0.0), rotation), floor_and_wall())])
     root = world.tree_of(0)
-    for leaf in (root + 1, root + 2):
-        known, along = noted(world, leaf)
-        assert known == mask
-        assert along == pytest.approx(up, abs=1e-6)
+    assert [noted(world, leaf) for leaf in (root + 1, root + 2)] == [mask, mask]
+    assert measured(world, root) == pytest.approx(up, abs=1e-6)
 
 
 def test_the_tree_of_a_part_is_measured_along_the_up_of_the_part() -> None:
@@ -71,14 +75,14 @@ def test_the_tree_of_a_part_is_measured_along_the_up_of_the_part() -> None:
     thing = Obstacle(pose, state=int(HAS_PHYSICS_BSP), parts=(Part(floor_and_wall()),))
     world = World([Cell(CELL, Pose(CELL), None, (thing,))])
     root = int(world.ints[world.ints[at.WORLD_PART_INTS] + at.PART_TREE])
-    assert noted(world, root + 1)[0] == 0b10
+    assert noted(world, root + 1) == 0b10
 
 
 def test_a_common_tree_is_measured_along_the_up_of_the_first_cell() -> None:
     """Who asks in the other has every polygon looked at."""
     shape = floor_and_wall()
     world = World([Cell(CELL, Pose(CELL), shape), Cell(CELL + 1, Pose(CELL, rotation=ON_ITS_SIDE), shape)])
-    assert noted(world, world.tree_of(1) + 1)[0] == 0b01
+    assert noted(world, world.tree_of(1) + 1) == 0b01
     assert asked(world, UPRIGHT, float(FLOOR_Z)) == 0b01
     assert asked(world, (-1.0, 0.0, 0.0), float(FLOOR_Z)) == 0b11
 
@@ -91,14 +95,14 @@ def test_a_common_tree_is_measured_along_the_up_of_the_first_cell() -> None:
 def test_what_is_steep_by_less_than_ups_may_differ_is_looked_at(z: float, mask: int) -> None:
     """Along another up that is near enough it may be flat."""
     world = world_of(leaning(z))
-    assert noted(world, world.tree_of(0))[0] == mask
+    assert noted(world, world.tree_of(0)) == mask
 
 
 def test_a_polygon_without_area_is_looked_at() -> None:
     """Its normal is NaN, of which nothing is known beforehand."""
     corners = [(0.0, 0.0, 0.0), (1.0, 0.0, 0.0), (2.0, 0.0, 0.0)]
     world = world_of(Shape(corners, [(0, 1, 2)], Leaf((0.0, 0.0, 0.0, 2.0), (0,))))
-    assert noted(world, world.tree_of(0))[0] == 1
+    assert noted(world, world.tree_of(0)) == 1
 
 
 @pytest.mark.parametrize(
@@ -150,8 +154,8 @@ def test_knowing_slopes_changes_nothing() -> None:
     for seed in range(5):
         rng = np.random.default_rng(seed)
         world = random_world(rng)
-        up = np.array(noted(world, world.tree_of(0) + 1)[1])
-        assert noted(world, world.tree_of(0) + 1)[0] < (1 << (SIZE // 3)) - 1
+        up = np.array(measured(world, world.tree_of(0)))
+        assert noted(world, world.tree_of(0) + 1) < (1 << (SIZE // 3)) - 1
         for k in range(SPHERES // 5):
             ball = (
                 np.append(rng.uniform(-1.2, 1.2, 3), rng.uniform(0.1, 0.8)).astype(np.float32).astype(float)
@@ -175,4 +179,4 @@ def test_a_wide_leaf_has_no_slopes() -> None:
         [(0, 0, 0), (1, 0, 0), (0, 1, 0)], [(0, 1, 2)] * size, Leaf((0.0, 0.0, 0.0, 2.0), tuple(range(size)))
     )
     world = world_of(shape)
-    assert noted(world, world.tree_of(0)) == (0, [0.0, 0.0, 0.0])
+    assert noted(world, world.tree_of(0)) == 0

@@ -39,7 +39,7 @@ def test_shared_shapes_are_stored_once() -> None:
     ]
     world = World(cells)
     assert world.shapes == (shape,)
-    assert world.tree_of(0) == world.tree_of(1) == at.FIRST_NODE - at.GATE
+    assert world.tree_of(0) == world.tree_of(1) == at.FIRST_NODE + at.GATE_NODES
     assert world.objects_of(0) == (0,)
     assert world.objects_of(1) == ()
     assert repr(world) == "<World: 2 cells, 1 objects, 1 shapes>"
@@ -50,7 +50,7 @@ def test_polygons_and_trees_are_relocated() -> None:
     first, second = triangle(), floor_and_wall()
     world = World([Cell(CELL, Pose(CELL), first), Cell(OTHER, Pose(CELL), second)])
     root = world.tree_of(1)
-    assert root == at.FIRST_NODE + 1 - 2 * at.GATE
+    assert root == at.FIRST_NODE + 1 + 2 * at.GATE_NODES
     nodes = world.ints[at.NODE_INTS * root : at.NODE_INTS * (root + 2)].reshape(2, at.NODE_INTS)
     negative, (start, leaf) = nodes[0, at.NODE_NEXT], nodes[1].tolist()
     assert nodes[0, at.NODE_LEAF] == 0
