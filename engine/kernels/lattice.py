@@ -8,9 +8,9 @@ walk comes to a dozen nodes and tests two dozen polygons.
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Final
 
-from engine.constants import EPS, LATTICE_REACH
+from engine.constants import EPS, LATTICE_REACH, frozen
 from engine.kernels.bsp_node import is_solid, leaf_of, leaf_polygons
 from engine.kernels.compile import inlined, kernel
 from engine.kernels.indexing import unsigned
@@ -45,6 +45,8 @@ if TYPE_CHECKING:
 
 _UNKNOWN = CROWDED << WORD_COUNT_SHIFT
 """The word of a point that is in no cube."""
+NOWHERE: Final = frozen(-1)
+"""Its place in the table."""
 
 
 @inlined
@@ -71,8 +73,11 @@ def within(a: int, b: int, c: int) -> int:
 
 
 @inlined
-def _word_at(wf: Array, wi: Ints, root: int, x: float, y: float, z: float) -> int:
-    """Return the word of the cube that a point of a tree's space is in; NaN is in none."""
+def cube_at(wf: Array, wi: Ints, root: int, x: float, y: float, z: float) -> tuple[int, int]:
+    """Return where the table says where the words of a point's block begin, and its cube in that block.
+
+    The point is in the frame of the tree. One that is in no cube, as NaN is, is `NOWHERE` in the table.
+    """
     g = unsigned(NODE_FLOATS * (root + GATE))
     scale = wf[g + LATTICE_PER_METRE]
     u = scale * (x - wf[g + LATTICE_CORNER])
@@ -80,11 +85,24 @@ def _word_at(wf: Array, wi: Ints, root: int, x: float, y: float, z: float) -> in
     w = scale * (z - wf[g + LATTICE_CORNER + 2])
     ny, nz = wf[g + LATTICE_COUNTS + 1], wf[g + LATTICE_COUNTS + 2]
     if not (0.0 <= u < wf[g + LATTICE_COUNTS] and 0.0 <= v < ny and 0.0 <= w < nz):
-        return _UNKNOWN
+        return NOWHERE, 0
     table = wi[unsigned(NODE_INTS * (root + GATE) + LATTICE_TABLE)]
     a, b, c = int(u), int(v), int(w)
-    block = wi[unsigned(table + block_of(a, b, c, int(ny), int(nz)))]
-    return half(wi, block, within(a, b, c))
+    return table + block_of(a, b, c, int(ny), int(nz)), within(a, b, c)
+
+
+@inlined
+def _word_at(wf: Array, wi: Ints, root: int, x: float, y: float, z: float) -> int:
+    """Return the word of the cube that a point of a tree's space is in."""
+    entry, cube = cube_at(wf, wi, root, x, y, z)
+    return _UNKNOWN if entry == NOWHERE else half(wi, wi[unsigned(entry)], cube)
+
+
+@inlined
+def listed(word: int) -> tuple[int, int]:
+    """Return where in the lists the polygons of a word begin, and end."""
+    first = word >> WORD_LIST_SHIFT
+    return first, first + (word >> WORD_COUNT_SHIFT & CROWDED)
 
 
 @inlined
@@ -99,20 +117,20 @@ def _what_is_near(
     if not 0.0 <= r <= LATTICE_REACH or not allows(s, PLAN_WALKS):
         return _UNKNOWN, 0, 0
     word = _word_at(wf, wi, root, x, y, z)
-    first = word >> WORD_LIST_SHIFT
-    return word, first, first + (word >> WORD_COUNT_SHIFT & CROWDED)
+    first, end = listed(word)
+    return word, first, end
 
 
 @inlined
-def _is_unknown(word: int) -> bool:
+def is_unknown(word: int) -> bool:
     """Say whether a cube lists nothing because there is too much."""
     return word >> WORD_COUNT_SHIFT & CROWDED == CROWDED
 
 
 @inlined
-def _listed(wi: Ints, root: int, i: int) -> int:
-    """Return the i-th polygon of a tree's lists."""
-    return half(wi, wi[unsigned(NODE_INTS * (root + GATE) + LATTICE_LISTS)], i)
+def lists_of(wi: Ints, root: int) -> int:
+    """Return where a tree's lists begin."""
+    return wi[unsigned(NODE_INTS * (root + GATE) + LATTICE_LISTS)]
 
 
 @inlined
@@ -154,11 +172,12 @@ def nothing_near(
     BSPNODE::sphere_intersects_solid 0x0053CAF0, SO-6...SO-8
     """
     word, first, end = _what_is_near(wf, wi, s, root, x, y, z, r)
-    if _is_unknown(word) or _may_be_solid(wf, wi, root, word, x, y, z, r, center_check):
+    if is_unknown(word) or _may_be_solid(wf, wi, root, word, x, y, z, r, center_check):
         return False
     s[POLYGONS_TESTED] += end - first
+    lists = lists_of(wi, root)
     for i in range(first, end):
-        code, _, _, _ = polygon_hits_sphere_slow_but_sure(wf, _listed(wi, root, i), x, y, z, r)
+        code, _, _, _ = polygon_hits_sphere_slow_but_sure(wf, half(wi, lists, i), x, y, z, r)
         if code == HIT:
             return False
     s[SKIPPED_WALKS] += 1.0
@@ -187,12 +206,13 @@ def no_ground_near(
     retail: BSPNODE::find_walkable 0x0053CC80, FW-4, FW-5
     """
     word, first, end = _what_is_near(wf, wi, s, root, x, y, z, r)
-    if _is_unknown(word):
+    if is_unknown(word):
         return False
     allowance = s[WALKABLE_ALLOWANCE]
     s[POLYGONS_TESTED] += end - first
+    lists = lists_of(wi, root)
     for i in range(first, end):
-        if polygon_walkable_hits_sphere(wf, _listed(wi, root, i), x, y, z, r, ux, uy, uz, allowance):
+        if polygon_walkable_hits_sphere(wf, half(wi, lists, i), x, y, z, r, ux, uy, uz, allowance):
             return False
     s[SKIPPED_WALKS] += 1.0
     return True

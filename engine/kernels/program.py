@@ -11,10 +11,12 @@ from typing import TYPE_CHECKING, Final
 from engine.body_layout import B_RECORDS, B_STATUS, BODY_SIZE
 from engine.constants import frozen
 from engine.kernels.ahead import bring_near, bring_nearer
+from engine.kernels.approach import NO_STEPS, STEPS, approach, is_large
 from engine.kernels.collisions import collide
 from engine.kernels.compile import entry, inlined, kernel
 from engine.kernels.object_calls import meet
 from engine.kernels.order import BODIES, CALLS, MOVES, put_in_order, turn
+from engine.kernels.plan import allows
 from engine.kernels.resolving import resolve
 from engine.kernels.sharing import SHARE_LANES, join, lane_after, put_back, take
 from engine.kernels.strangers import (
@@ -28,6 +30,7 @@ from engine.kernels.tick_gates import update
 from engine.kernels.tick_placement import place
 from engine.layout import (
     COLLISION_INFO_SIZE,
+    PLAN_WALKS,
     Q_COLLISION_INFO,
     QUERY_SIZE,
     R_STATUS,
@@ -60,7 +63,8 @@ AHEAD: Final = frozen(2)
 The row of results is brought when half of the work before is done: more than a dozen lines at a time, and the
 processor waits for the first of them."""
 FAR_AHEAD: Final = frozen(4)
-"""The same for what takes longer, and is brought only half the way."""
+"""The same for what takes longer, and is brought only half the way; and before the first step of an approach
+reads it, if there is one (`engine.kernels.approach`)."""
 _OF_MOVES: Final = frozen(Q_COLLISION_INFO + COLLISION_INFO_SIZE)
 """Numbers of a query's row that a move reads: the rest is for single calls."""
 
@@ -149,8 +153,13 @@ def _do_some(
     if job == RESOLVE:
         return _resolve_some(wf, wi, s, rows, out, order, first, last)
     failed = 0
+    approaches = job == COLLIDE and is_large(wf, wi) and allows(s, PLAN_WALKS)
+    steps = NO_STEPS
+    ahead = FAR_AHEAD + STEPS if approaches else FAR_AHEAD
     for k in range(first, last):
-        _bring(job, rows, turn(order, min(k + FAR_AHEAD, last - 1)))
+        _bring(job, rows, turn(order, min(k + ahead, last - 1)))
+        if approaches:
+            steps = approach(wf, wi, rows[turn(order, min(k + STEPS, last - 1))], steps)
         failed += _do(wf, wi, s, job, rows, out, turn(order, k)) != STATUS_OK
     return failed
 

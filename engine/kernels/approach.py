@@ -1,0 +1,131 @@
+"""What a call will read of its tree's lattice, brought near while others are answered.
+
+In a large world a call finds little of that in a cache: its block's words, the list that one of them
+points to, and the polygons of the list lie all over memory, each where the one before says, and it would
+wait for each. So while a call is answered, one step is taken for each of the next four: what a step reads
+was brought near by the step before, a call ago.
+
+The mover is taken for upright, which nearly all are. For another, something is brought near that nobody
+reads: no answer depends on it.
+"""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Final, TypeAlias
+
+from engine.constants import frozen
+from engine.kernels.ahead import bring_near
+from engine.kernels.cell_array import ints_of, position_of
+from engine.kernels.compile import inlined
+from engine.kernels.indexing import unsigned
+from engine.kernels.lattice import NOWHERE, cube_at, half, is_unknown, listed, lists_of
+from engine.kernels.position import block_offset
+from engine.kernels.vector import load
+from engine.layout import (
+    CELL_TREE,
+    MATRIX,
+    ORIGIN,
+    POLYGON_CORNERS,
+    POSE_ORIGIN,
+    Q_END,
+    Q_SPHERES,
+    Q_TARGET_CELL,
+    WORLD_CELLS,
+)
+
+if TYPE_CHECKING:
+    from engine.kernels.types import Array, Ints, Vector
+
+Steps: TypeAlias = tuple[tuple[int, int, int], tuple[int, int, int], tuple[int, int, int]]
+"""Of the calls whose turn comes in four, three and two: where the table tells of the block, the cube in it,
+and the tree's lists; where the block's words begin, and the same; where in the lists the polygons begin and
+end, and the lists."""
+
+STEPS: Final = frozen(4)
+"""How many calls before its turn a call's first step is taken."""
+NO_STEPS: Final[Steps] = (NOWHERE, 0, 0), (NOWHERE, 0, 0), (0, 0, 0)
+"""What is known of calls that no step has been taken for."""
+MOST: Final = frozen(4)
+"""Polygons of a list that are brought near, at most."""
+LARGE: Final = frozen(1 << 17)
+"""Numbers of a world that no second cache has room for: a megabyte. A smaller one is in it anyway."""
+
+
+@inlined
+def is_large(wf: Array, wi: Ints) -> bool:
+    """Say whether a world is not in a near cache as a whole."""
+    return len(wf) + len(wi) > LARGE
+
+
+@inlined
+def _place(wf: Array, p: int, q: Array) -> Vector:
+    """Return about where a query's first sphere is in the space of the position at ``wf[p]``."""
+    x, y, z = load(q, Q_END + POSE_ORIGIN)
+    ox, oy, oz = load(wf, p + ORIGIN)
+    bx, by = block_offset(wf[p], q[Q_END])
+    dx, dy, dz = bx + x - ox, by + y - oy, z + q[Q_SPHERES + 2] - oz
+    m = unsigned(p + MATRIX)
+    return (
+        wf[m] * dx + wf[m + 1] * dy + wf[m + 2] * dz,
+        wf[m + 3] * dx + wf[m + 4] * dy + wf[m + 5] * dz,
+        wf[m + 6] * dx + wf[m + 7] * dy + wf[m + 8] * dz,
+    )
+
+
+@inlined
+def _find_entry(wf: Array, wi: Ints, q: Array) -> tuple[int, int, int]:
+    """Take the first step of a call: find out where its cube is."""
+    if not 0.0 <= q[Q_TARGET_CELL] < wi[WORLD_CELLS]:
+        return NOWHERE, 0, 0
+    cell = int(q[Q_TARGET_CELL])
+    root = wi[ints_of(wi, cell) + CELL_TREE]
+    x, y, z = _place(wf, position_of(wi, cell), q)
+    entry, cube = cube_at(wf, wi, root, x, y, z)
+    if entry != NOWHERE:
+        bring_near(wi, entry, 1)
+    return entry, cube, lists_of(wi, root)
+
+
+@inlined
+def _find_words(wi: Ints, entry: int, cube: int, lists: int) -> tuple[int, int, int]:
+    """Take the second: find the words of its block."""
+    if entry == NOWHERE:
+        return NOWHERE, 0, 0
+    words = wi[unsigned(entry)]
+    bring_near(wi, words + (cube >> 1), 1)
+    return words, cube, lists
+
+
+@inlined
+def _find_list(wi: Ints, words: int, cube: int, lists: int) -> tuple[int, int, int]:
+    """Take the third: find its polygons' list."""
+    if words == NOWHERE:
+        return 0, 0, 0
+    word = half(wi, words, cube)
+    if is_unknown(word):
+        return 0, 0, 0
+    first, end = listed(word)
+    bring_near(wi, lists + (first >> 1), 1)
+    return first, end, lists
+
+
+@inlined
+def _bring_polygons(wf: Array, wi: Ints, first: int, end: int, lists: int) -> None:
+    """Take the last: of each polygon, bring what a sphere is tested against first."""
+    for i in range(first, min(end, first + MOST)):
+        bring_near(wf, half(wi, lists, i), POLYGON_CORNERS)
+
+
+@inlined
+def approach(wf: Array, wi: Ints, q: Array, steps: Steps) -> Steps:
+    """Take one step for each of the calls that come next.
+
+    `q` is the query of the last of them, `STEPS` calls from now; `steps` has been returned a call ago.
+    """
+    (entry, its_cube, its_lists), (words, cube, lists), (first, end, near) = steps
+    _bring_polygons(wf, wi, first, end, near)
+    return (
+        _find_entry(wf, wi, q),
+        _find_words(wi, entry, its_cube, its_lists),
+        _find_list(wi, words, cube, lists),
+    )

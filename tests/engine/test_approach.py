@@ -1,0 +1,156 @@
+"""What is brought near before a call's turn: what it will look up, whatever stands in the rows."""
+
+from __future__ import annotations
+
+import math
+from itertools import repeat
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+import pytest
+
+from conformance.bench.sampling import tree_calls
+from conformance.bench.scenes import make_scene
+from conformance.bench.spots import Surfaces
+from engine import QueryError, find_collisions_many
+from engine import layout as at
+from engine.kernels.ahead import bring_near
+from engine.kernels.approach import MOST, NO_STEPS, STEPS, approach, is_large
+from engine.kernels.collisions import collide
+from engine.kernels.lattice import NOWHERE, cube_at, half, is_unknown, listed, lists_of, nothing_near
+from engine.tracing_interpreter import Interpreter
+
+if TYPE_CHECKING:
+    from conformance.bench.scenes import BenchScene
+    from engine.kernels.types import Array
+    from engine.query import Rows
+
+CALLS = 300
+NOT_A_PLACE = (math.nan, math.inf, -math.inf, 1e300, -1e300)
+NOT_A_CELL = (-1.0, 1.0, math.nan, math.inf, 1e300)
+"""Indices of no cell of a world of one."""
+
+
+@pytest.fixture(scope="module")
+def building() -> BenchScene:
+    """Return a scene that no second cache holds."""
+    return make_scene("building")
+
+
+@pytest.fixture(scope="module")
+def calls(building: BenchScene) -> Rows:
+    """Return calls of movers on the ground."""
+    return tree_calls(building, Surfaces(building.geometry), np.random.default_rng(1), CALLS).rows
+
+
+def brought(scene: BenchScene, rows: Rows) -> list[list[tuple[bool, int]]]:
+    """Return what has been brought in the turn of each row, as in a batch, and in those before the first.
+
+    Each is a place, and whether it is one of the world's floats.
+    """
+    floats, ints = scene.world.floats, scene.world.ints
+    places: list[tuple[bool, int]] = []
+    noted = {bring_near: lambda array, first, _: places.append((array is floats, int(first)))}
+    step: Any = Interpreter(noted).function(approach)
+    numbers = rows.view(np.float64).reshape(len(rows), -1)
+    steps, turns = NO_STEPS, []
+    with np.errstate(all="ignore"):
+        for row in [*numbers, *repeat(numbers[-1], STEPS - 1)]:
+            places.clear()
+            steps = step(floats, ints, row, steps)
+            turns.append(list(places))
+    return turns
+
+
+def polygons_near(scene: BenchScene, center: Array) -> list[int]:
+    """Return the polygons that the cube of a point of the tree lists."""
+    told: Any = {
+        name: Interpreter({}).function(name) for name in (cube_at, half, is_unknown, listed, lists_of)
+    }
+    ints, root = scene.world.ints, scene.world.tree_of(0)
+    entry, cube = told[cube_at](scene.world.floats, ints, root, *center)
+    assert entry != NOWHERE
+    word = told[half](ints, ints[entry], cube)
+    if told[is_unknown](word):
+        return []
+    return [told[half](ints, told[lists_of](ints, root), i) for i in range(*told[listed](word))]
+
+
+def looked_up(scene: BenchScene, rows: Rows) -> list[Array]:
+    """Return where the first sphere of each call is first looked up, in the frame of the tree."""
+    end = rows["end"][:, -3:] + rows["spheres"][:, 0, :3]
+    places: Array = scene.to_cell(end - np.array(scene.pose.origin))
+    return list(places)
+
+
+def test_the_polygons_of_a_call_are_brought_in_the_turn_before_its_own(
+    building: BenchScene, calls: Rows
+) -> None:
+    """They are those that its sphere's cube lists, the first of them; and there are some."""
+    turns = brought(building, calls)
+    found = 0
+    for call, center in enumerate(looked_up(building, calls)):
+        expected = polygons_near(building, center)[: int(MOST)]
+        assert [place for of_floats, place in turns[call + STEPS - 1] if of_floats] == expected
+        found += len(expected)
+    assert found > 2 * CALLS
+
+
+def test_a_call_looks_up_where_it_was_expected_to(building: BenchScene, calls: Rows) -> None:
+    """What the kernel that looks it up is told of the first sphere is what was computed ahead of it."""
+    asked: list[tuple[float, ...]] = []
+    world = building.world
+
+    def note(_wf: Any, _wi: Any, _s: Any, _root: int, *ball: float) -> bool:
+        asked.append(ball[:3])
+        return False
+
+    watched: Any = Interpreter({nothing_near: note}).function(collide)
+    some = calls[0:40:2].copy()
+    rows = some.view(np.float64).reshape(len(some), -1)
+    for row, center in zip(rows, looked_up(building, some), strict=True):
+        asked.clear()
+        watched(world.floats, world.ints, world.new_row(), row, np.zeros(at.RESULT_SIZE))
+        assert asked[0] == pytest.approx(center, abs=1e-3)
+
+
+@pytest.mark.parametrize("place", NOT_A_PLACE)
+def test_nothing_is_brought_for_who_is_in_no_cube(building: BenchScene, calls: Rows, place: float) -> None:
+    """A place that is no number, or beyond all cubes, is looked up nowhere."""
+    rows = calls[:3].copy()
+    rows["end"][:, -1] = place
+    assert brought(building, rows) == [[]] * (len(rows) + STEPS - 1)
+
+
+@pytest.mark.parametrize("cell", NOT_A_CELL)
+def test_nothing_is_brought_for_a_cell_that_is_not_there(
+    building: BenchScene, calls: Rows, cell: float
+) -> None:
+    """A row that names no cell is refused in its turn, and not looked into before."""
+    rows = calls[:3].copy()
+    rows["target_cell"] = cell
+    assert brought(building, rows) == [[]] * (len(rows) + STEPS - 1)
+
+
+def test_strangers_between_others_change_no_answer(building: BenchScene, calls: Rows) -> None:
+    """Each call is answered as it is alone, whoever comes after it."""
+    world, rows = building.world, calls.copy()
+    alone = np.concatenate([find_collisions_many(world, rows[i : i + 1]) for i in range(len(rows))])
+    for k, cell in enumerate(NOT_A_CELL):
+        rows["target_cell"][7 + 10 * k] = cell
+    for k, place in enumerate(NOT_A_PLACE):
+        rows["end"][8 + 10 * k, -3:] = place
+    others = np.ones(len(rows), dtype=bool)
+    others[7 : 7 + 10 * len(NOT_A_CELL) : 10] = others[8 : 8 + 10 * len(NOT_A_PLACE) : 10] = False
+    out = np.zeros(len(rows), dtype=at.RESULT_DTYPE)
+    with pytest.raises(QueryError, match="row 7"):
+        find_collisions_many(world, rows, out=out)
+    assert out[others].tobytes() == alone[others].tobytes()
+
+
+def test_only_in_a_large_world_calls_are_approached(building: BenchScene) -> None:
+    """A cache holds a room as a whole, but not sixteen."""
+    large: Any = Interpreter({}).function(is_large)
+    room = make_scene("room").world
+    assert large(building.world.floats, building.world.ints)
+    assert not large(room.floats, room.ints)
