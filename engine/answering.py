@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING, Any
 
 from engine.coherence import order_for
 from engine.errors import QueryError
+from engine.kernels import program
 from engine.plan import NO_PLAN, Plan
 from engine.threads import together
 from engine.tracing import runnable
@@ -59,11 +60,12 @@ def answer(
     """
     CHECK_WORLD(world, "world", QueryError)
     run = runnable(kernel)
+    arrays = world.arrays_for(count, plan) if kernel is program.run else world.arrays
     order = order_for(count, coherent=coherent)
 
     def work(share: Ints) -> None:
         row = world.take_row(plan)
-        run(world.floats, world.ints, row, *arguments(), order, share)
+        run(*arrays, row, *arguments(), order, share)
         world.give_back(row)
 
     return together(work, count, threads)

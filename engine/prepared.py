@@ -25,6 +25,9 @@ _NEXT: Final = int(LANE_INTS + LANE_NEXT)
 class Prepared:
     """A query with rows of its own: asking it costs little more than the answer.
 
+    It keeps the arrays that the world has when it is made, and does not count its runs: call `World.prepare`
+    before, if what that makes is to be used.
+
     Parameters
     ----------
     world : World
@@ -71,8 +74,7 @@ class Prepared:
         self._numbers: Final = results.view(np.float64)
         self._share: Final = new_share(1)
         self._arguments: Final = (
-            world.floats,
-            world.ints,
+            *world.arrays,
             world.new_row(plan=plan),
             job,
             rows.view(np.float64).reshape(1, at.QUERY_SIZE),

@@ -51,7 +51,7 @@ def find_visible_child_cell(
     x, y, z = float32_array(point, (int(at.VECTOR_SIZE),), "point", QueryError).tolist()
     around = _visible_from(world, index) if search_stabs else _behind_portals(world, index)
     for other in (index, *around):
-        if point_in_cell(world.floats, world.ints, other, x, y, z):
+        if point_in_cell(*world.arrays, other, x, y, z):
             return world.cell_ids[other]
     return None
 

@@ -28,6 +28,7 @@ def warmup() -> None:
     """
     floor = Shape([(-5, -5, 0), (5, -5, 0), (0, 5, 0)], [(0, 1, 2)], Leaf((0, 0, 0, 10), (0,)))
     world = World([Cell(_CELL, Pose(_CELL), floor)])
+    world.prepare()
     start, end = Pose(_CELL, (0, 0, 1)), Pose(_CELL, (0, 0, 0.5))
     move = Move(Mover([(0, 0, 0, 0.5)]), end, _CELL, start=start)
     resolve(world, move)

@@ -79,7 +79,7 @@ class BenchScene:
     others : tuple of Cell
         What else is in the world; the mover never gets there.
     world : engine.World
-        The compiled scene; the cell's index is 0.
+        The compiled scene, prepared as for many queries; the cell's index is 0.
     """
 
     name: str
@@ -93,7 +93,9 @@ class BenchScene:
     def __post_init__(self) -> None:
         pose = engine_pose(self.pose.to_record())
         own = Cell(self.pose.cell, pose, engine_shape(self.geometry), self.objects)
-        object.__setattr__(self, "world", World([own, *self.others]))
+        world = World([own, *self.others])
+        world.prepare()
+        object.__setattr__(self, "world", world)
 
     @property
     def size(self) -> int:

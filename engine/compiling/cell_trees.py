@@ -1,17 +1,12 @@
-"""The trees of environment cells, as kernels walk through them while a world is compiled."""
+"""The trees of environment cells, of which grids and lattices are made when enough is asked of a world."""
 
 from __future__ import annotations
 
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
-import numpy as np
-
-from engine import layout as at
-from engine.memory import aligned
-
 if TYPE_CHECKING:
-    from collections.abc import Mapping, Sequence
+    from collections.abc import Sequence
 
     from engine.cells import Cell
     from engine.compiling.storage import Storage
@@ -20,29 +15,45 @@ if TYPE_CHECKING:
 
 
 @dataclass(frozen=True, slots=True)
-class CellTrees:
-    """What is needed to find out what is near a place in a cell.
+class CellTree:
+    """A tree that has polygons, and where what is written of it lies in the world's arrays.
 
     Attributes
     ----------
-    floats, ints : ndarray
-        The world's arrays, of which all is written that a walk reads, and plates of polygons.
-    row : ndarray
-        A row of state, with room for a traversal.
-    shapes : list of Shape
-        The cells' geometry: of those that have polygons, each once.
+    shape : Shape
+    root : int
+        Its root node.
+    first, count : int
+        Where the leaves' lists begin in the integers, and how long they are together.
+    cells : tuple of int
+        The cells that have it, by their indices.
     """
+
+    shape: Shape
+    root: int
+    first: int
+    count: int
+    cells: tuple[int, ...]
+
+
+@dataclass(frozen=True, slots=True)
+class Written:
+    """A world's arrays, of which all is written that walks read, and a row of state for them."""
 
     floats: Array
     ints: Ints
     row: Array
-    shapes: list[Shape]
 
-    @classmethod
-    def of(cls, storage: Storage, header: Mapping[int, int], cells: Sequence[Cell]) -> CellTrees:
-        """Return the trees of the environment cells, from what is written and what the header says of it."""
-        floats, ints = storage.finish(header)
-        row: Array = aligned(int(ints[at.WORLD_ROW]), np.float64)
-        row[:] = 0.0
-        shapes = {id(cell.shape): cell.shape for cell in cells if cell.shape is not None}
-        return cls(floats, ints, row, [shape for shape in shapes.values() if len(shape.polygon_offsets)])
+
+def cell_trees(storage: Storage, cells: Sequence[Cell]) -> list[CellTree]:
+    """Return the trees of environment cells, each once, in order of first use."""
+    shapes = {id(cell.shape): cell.shape for cell in cells if cell.shape is not None}
+    users: dict[int, list[int]] = {key: [] for key in shapes}
+    for index, cell in enumerate(cells):
+        if cell.shape is not None:
+            users[id(cell.shape)].append(index)
+    return [
+        CellTree(shape, storage.root_of(shape), *storage.leaf_lists[key], tuple(users[key]))
+        for key, shape in shapes.items()
+        if len(shape.polygon_offsets)
+    ]

@@ -11,11 +11,8 @@ from engine.compiling.cubes import cubes_about, packed
 from engine.kernels.clearance import measure_clearance
 
 if TYPE_CHECKING:
-    from collections.abc import Sequence
-
-    from engine.cells import Cell
-    from engine.compiling.cell_trees import CellTrees
-    from engine.compiling.storage import Storage
+    from engine.compiling.cell_trees import CellTree, Written
+    from engine.compiling.growing import Growing
     from engine.geometry import Shape
     from engine.kernels.types import Array
 
@@ -31,21 +28,14 @@ _BYTES: Final = 8
 """Of an integer."""
 
 
-def write_clearances(storage: Storage, trees: CellTrees, cells: Sequence[Cell]) -> dict[int, int]:
-    """Write a grid for each tree of an environment cell; return what the header says of them.
-
-    `trees`: those of the environment cells, `cells`.
-    """
-    grids: dict[int, int] = {}
-    for shape in trees.shapes:
-        grid = _grid_about(shape)
-        levels = np.zeros(int(grid[at.CLEARANCE_COUNTS :][:3].prod()), dtype=np.uint8)
-        measure_clearance(trees.floats, trees.ints, trees.row, storage.root_of(shape), grid, levels)
-        grid[at.CLEARANCE_LEVELS] = _BYTES * storage.add_ints(packed(levels, int(at.CLEARANCE_BITS)))
-        storage.align()
-        grids[id(shape)] = storage.add_floats(grid)
-    table = [grids.get(id(cell.shape), int(at.NO_CLEARANCE)) for cell in cells]
-    return {int(at.WORLD_CLEARANCES): storage.add_ints(table)}
+def write_clearance(more: Growing, world: Written, tree: CellTree) -> int:
+    """Append the grid of a tree to a world; return where it begins."""
+    grid = _grid_about(tree.shape)
+    levels = np.zeros(int(grid[at.CLEARANCE_COUNTS :][:3].prod()), dtype=np.uint8)
+    measure_clearance(world.floats, world.ints, world.row, tree.root, grid, levels)
+    grid[at.CLEARANCE_LEVELS] = _BYTES * more.add_ints(packed(levels, int(at.CLEARANCE_BITS)))
+    more.align()
+    return more.add_floats(grid)
 
 
 def _grid_about(shape: Shape) -> Array:

@@ -12,9 +12,9 @@ from engine.constants import BOUND_ROUNDING, BOUND_SLACK, LATTICE_REACH
 from engine.kernels.lattice_making import note_near, note_solid, share_lists
 
 if TYPE_CHECKING:
-    from engine.compiling.cell_trees import CellTrees
+    from engine.compiling.cell_trees import CellTree, Written
     from engine.compiling.cubes import Cubes
-    from engine.compiling.storage import Storage
+    from engine.compiling.growing import Growing
     from engine.geometry import Shape
     from engine.kernels.types import Array, Ints
 
@@ -34,33 +34,33 @@ _MOST_LISTED: Final = 1 << int(at.WORD_BITS - at.WORD_LIST_SHIFT)
 """nor beyond what a word can say."""
 
 
-def write_lattices(storage: Storage, trees: CellTrees) -> None:
-    """Write a lattice for each tree of an environment cell, and where it is into the tree's gate."""
-    floats, ints = trees.floats, trees.ints
-    for shape in trees.shapes:
-        listed = _listed(storage, ints, shape)
-        cubes, ranges = _divided(shape, _balls(floats, ints, listed))
-        gate, places = storage.gate_of(shape)
-        gate[at.LATTICE_CORNER : at.LATTICE_CORNER + at.VECTOR_SIZE] = cubes.corner
-        gate[at.LATTICE_PER_METRE] = 1.0 / cubes.edge
-        gate[at.LATTICE_COUNTS : at.LATTICE_COUNTS + at.VECTOR_SIZE] = cubes.counts
-        words = np.zeros(cubes.size, dtype=np.int64)
-        note_solid(floats, ints, trees.row, storage.root_of(shape), gate, words)
-        begins, ends, near = _near(floats, ints, gate, listed, ranges, cubes.size)
-        room = min(_LISTED_PER_POLYGON * len(shape.polygon_offsets), _MOST_LISTED)
-        lists = np.empty(room, dtype=np.int64)
-        used = share_lists(gate, begins, ends, near, words, lists)
-        blocks, numbers = _shared(words)
-        first = storage.add_ints(blocks.ravel())
-        places[at.LATTICE_TABLE] = storage.add_ints(first + blocks.shape[1] * numbers)
-        places[at.LATTICE_LISTS] = storage.add_ints(packed(lists[:used], int(at.WORD_BITS)))
+def write_lattice(more: Growing, world: Written, tree: CellTree) -> tuple[Array, Ints]:
+    """Append the lattice of a tree to a world; return the gate of the tree: its numbers and its integers."""
+    shape, floats, ints = tree.shape, world.floats, world.ints
+    listed = _listed(ints, tree)
+    cubes, ranges = _divided(shape, _balls(floats, ints, listed))
+    gate = floats[at.NODE_FLOATS * (tree.root + at.GATE) :][: int(at.NODE_FLOATS)].copy()
+    gate[at.LATTICE_CORNER : at.LATTICE_CORNER + at.VECTOR_SIZE] = cubes.corner
+    gate[at.LATTICE_PER_METRE] = 1.0 / cubes.edge
+    gate[at.LATTICE_COUNTS : at.LATTICE_COUNTS + at.VECTOR_SIZE] = cubes.counts
+    words = np.zeros(cubes.size, dtype=np.int64)
+    note_solid(floats, ints, world.row, tree.root, gate, words)
+    begins, ends, near = _near(floats, ints, gate, listed, ranges, cubes.size)
+    room = min(_LISTED_PER_POLYGON * len(shape.polygon_offsets), _MOST_LISTED)
+    lists = np.empty(room, dtype=np.int64)
+    used = share_lists(gate, begins, ends, near, words, lists)
+    blocks, numbers = _shared(words)
+    first = more.add_ints(blocks.ravel())
+    places = np.zeros(at.NODE_INTS, dtype=np.int64)
+    places[at.LATTICE_TABLE] = more.add_ints(first + blocks.shape[1] * numbers)
+    places[at.LATTICE_LISTS] = more.add_ints(packed(lists[:used], int(at.WORD_BITS)))
+    return gate, places
 
 
-def _listed(storage: Storage, ints: Ints, shape: Shape) -> Ints:
-    """Return where in the leaves' lists each polygon of a shape's tree is, once."""
-    first, count = storage.leaf_lists[id(shape)]
-    _, index = np.unique(ints[first : first + count], return_index=True)
-    return first + index
+def _listed(ints: Ints, tree: CellTree) -> Ints:
+    """Return where in the leaves' lists each polygon of a tree is, once."""
+    _, index = np.unique(ints[tree.first : tree.first + tree.count], return_index=True)
+    return tree.first + index
 
 
 def _balls(floats: Array, ints: Ints, listed: Ints) -> Array:

@@ -8,8 +8,8 @@ import numpy as np
 
 from engine import layout as at
 from engine.compiling.enclosure import gate_radius
+from engine.compiling.growing import Growing
 from engine.compiling.leaf_planes import leaf_planes
-from engine.memory import aligned
 
 if TYPE_CHECKING:
     from collections.abc import Mapping, Sequence
@@ -18,7 +18,7 @@ if TYPE_CHECKING:
     from engine.kernels.types import Array, Ints
 
 
-class Storage:
+class Storage(Growing):
     """Nodes in front, and behind them whatever is appended.
 
     Parameters
@@ -39,46 +39,20 @@ class Storage:
         header_nodes = int(at.FIRST_NODE)
         self._node_floats: list[Array] = [np.zeros(at.NODE_FLOATS * header_nodes, dtype=np.float64)]
         self._node_ints: list[Ints] = [np.zeros(at.NODE_INTS * header_nodes, dtype=np.int64)]
-        self._num_floats = int(at.NODE_FLOATS) * nodes
-        self._num_ints = int(at.NODE_INTS) * nodes
-        self._floats: list[Array] = []
-        self._ints: list[Ints] = []
+        super().__init__(int(at.NODE_FLOATS) * nodes, int(at.NODE_INTS) * nodes)
         self.polygons: Final[list[int]] = []
         self.leaf_lists: Final[dict[int, tuple[int, int]]] = {}
         self._roots: dict[int, int] = {}
         self._planes: dict[int, tuple[int, int]] = {}
-        self._gates: dict[int, tuple[Array, Ints]] = {}
         first = header_nodes
         for index, shape in enumerate(shapes):
             self._add_gate(shape)
             self._add_shape(index, shape, first + int(at.GATE_NODES))
             first += int(at.GATE_NODES) + len(shape.node_ints)
 
-    def align(self) -> None:
-        """Let the next numbers begin where a cache line does."""
-        self.add_floats(np.zeros(-self._num_floats % int(at.POLYGON_ALIGNMENT)))
-
-    def add_floats(self, values: Array) -> int:
-        """Append numbers; return where they begin."""
-        offset = self._num_floats
-        self._floats.append(values)
-        self._num_floats += len(values)
-        return offset
-
-    def add_ints(self, values: Sequence[int] | Ints) -> int:
-        """Append integers; return where they begin."""
-        offset = self._num_ints
-        self._ints.append(np.asarray(values, dtype=np.int64))
-        self._num_ints += len(values)
-        return offset
-
     def root_of(self, shape: Shape | None) -> int:
         """Return the root node of a shape's tree."""
         return int(at.NO_TREE) if shape is None else self._roots[id(shape)]
-
-    def gate_of(self, shape: Shape) -> tuple[Array, Ints]:
-        """Return the numbers and the integers of the gate of a shape's tree, to be filled in."""
-        return self._gates[id(shape)]
 
     def planes_of(self, shape: Shape | None) -> tuple[int, int]:
         """Return where a shape's containment planes begin, and how many they are."""
@@ -86,10 +60,7 @@ class Storage:
 
     def finish(self, header: Mapping[int, int]) -> tuple[Array, Ints]:
         """Return the arrays, with the header written."""
-        floats: Array = aligned(self._num_floats, np.float64)
-        ints: Ints = aligned(self._num_ints, np.int64)
-        np.concatenate([*self._node_floats, *self._floats], out=floats)
-        np.concatenate([*self._node_ints, *self._ints], out=ints)
+        floats, ints = self.behind(self._node_floats, self._node_ints)
         for place, value in header.items():
             ints[place] = value
         return floats, ints
@@ -110,7 +81,6 @@ class Storage:
         floats[at.GATE, at.GATE_RADIUS] = gate_radius(shape)
         self._node_floats.append(floats.ravel())
         self._node_ints.append(ints.ravel())
-        self._gates[id(shape)] = floats[at.GATE], ints[at.GATE]
 
     def _add_shape(self, index: int, shape: Shape, first: int) -> None:
         """Append a shape; its tree gets node numbers from `first` on."""

@@ -1,6 +1,6 @@
 """Clearance: how large a ball about a point is certain to touch nothing, looked up instead of walked for.
 
-When a world is compiled, the box about a cell's tree is divided into cubes, and for the middle of each the
+When a world is prepared, the box about a cell's tree is divided into cubes, and for the middle of each the
 largest of some radii is noted of which `engine.kernels.broad.tree_beyond` says that no sphere inside the ball
 strikes or overlaps a polygon. A ball that lies inside such a ball is clear for the same reason: the spheres
 inside it are inside the larger one, too.

@@ -1,7 +1,7 @@
 """The lattice of a tree: what is near, looked up instead of walked for.
 
 Most walks of a mover through a tree find nothing: the ground under it is at its radius, and not nearer. When
-a world is made, the box about a cell's tree is divided into cubes, and for each those polygons are listed
+a world is prepared, the box about a cell's tree is divided into cubes, and for each those polygons are listed
 that a sphere with its centre there may touch (`engine.kernels.lattice_making`): three, as a rule, where a
 walk comes to a dozen nodes and tests two dozen polygons.
 """

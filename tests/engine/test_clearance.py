@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 import pytest
-from engine_scenes import CELL, floor_and_wall, triangle, world_of
+from engine_scenes import CELL, floor_and_wall, prepared, triangle, world_of
 from hypothesis import given
 from hypothesis import strategies as st
 
@@ -106,13 +106,15 @@ def test_what_the_grid_knows(center: tuple[float, float, float], radius: float, 
 def test_cells_of_one_shape_share_a_grid() -> None:
     """And a cell without polygons has none."""
     shape = triangle()
-    world = World(
-        [
-            Cell(CELL, Pose(CELL), shape),
-            Cell(CELL + 1, Pose(CELL), Shape([], [], Leaf((0, 0, 0, 1)))),
-            Cell(CELL + 2, Pose(CELL), shape),
-            Cell(CELL + 3, Pose(CELL), None),
-        ]
+    world = prepared(
+        World(
+            [
+                Cell(CELL, Pose(CELL), shape),
+                Cell(CELL + 1, Pose(CELL), Shape([], [], Leaf((0, 0, 0, 1)))),
+                Cell(CELL + 2, Pose(CELL), shape),
+                Cell(CELL + 3, Pose(CELL), None),
+            ]
+        )
     )
     first = world.ints[at.WORLD_CLEARANCES]
     one, none, same, no_shape = world.ints[first : first + 4]

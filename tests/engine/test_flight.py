@@ -12,7 +12,6 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from engine import (
-    Cell,
     ContactPlane,
     Leaf,
     Move,
@@ -145,9 +144,8 @@ def test_a_flight_past_the_transition_stays_in_its_cell(gap: float, past: bool) 
     bounds = (0.0, 0.0, 0.0, 300.0)
     corners = [(-200, -200, 0), (200, -200, 0), (0, 200, 0)]
     wall = 0.25 + R + gap
-    world = World(
-        [Cell(CELL, Pose(CELL), Shape(corners, [(0, 1, 2)], Leaf(bounds, (0,)), [(-1, 0, 0, wall)]))]
-    )
+    shape = Shape(corners, [(0, 1, 2)], Leaf(bounds, (0,)), [(-1, 0, 0, wall)])
+    world = world_of(shape)
     answer = flown(world, replace(FLIGHT, mover=mover()))
     assert (answer["cells_listed"] == PAST_THE_TRANSITION) == past
     assert sub_steps(answer) == 1
@@ -160,7 +158,7 @@ def test_no_flight_in_a_cell_whose_planes_are_not_unit(scale: float, steps: int)
     shape = Shape(
         [(0, 0, -9), (1, 0, -9), (0, 1, -9)], [(0, 1, 2)], Leaf(bounds, (0,)), [(0, 0, scale, scale)]
     )
-    assert sub_steps(flown(World([Cell(CELL, Pose(CELL), shape)]), FLIGHT)) == steps
+    assert sub_steps(flown(world_of(shape), FLIGHT)) == steps
 
 
 def test_a_row_is_no_other_after_a_flight() -> None:

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 import pytest
-from engine_scenes import CELL, R, floor_and_wall, mover, triangle, world_of
+from engine_scenes import CELL, R, floor_and_wall, mover, prepared, triangle, world_of
 from engine_scenes import at as near
 from hypothesis import given, settings
 from hypothesis import strategies as st
@@ -338,12 +338,14 @@ def test_neighbours_share_their_lists() -> None:
 def test_cells_of_one_shape_share_a_lattice() -> None:
     """It belongs to the tree; a tree without polygons has none."""
     shape, bare = triangle(), Shape([], [], Leaf((0, 0, 0, 1)))
-    world = World(
-        [
-            Cell(CELL, Pose(CELL), shape),
-            Cell(CELL + 1, Pose(CELL), bare),
-            Cell(CELL + 2, Pose(CELL), shape),
-        ]
+    world = prepared(
+        World(
+            [
+                Cell(CELL, Pose(CELL), shape),
+                Cell(CELL + 1, Pose(CELL), bare),
+                Cell(CELL + 2, Pose(CELL), shape),
+            ]
+        )
     )
     one, none, same = (world.tree_of(index) for index in range(3))
     assert one == same

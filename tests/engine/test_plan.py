@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 import pytest
-from engine_scenes import CELL, R, at, mover, triangle, world_of
+from engine_scenes import CELL, R, at, mover, prepared, triangle, world_of
 
 from engine import (
     Cell,
@@ -103,7 +103,7 @@ def leaf_world(*polygons: list[int], plane: tuple[float, ...] | None = None, **w
     bounds = (0.0, 0.0, 0.0, 20.0)
     leaf = Leaf(bounds, range(len(polygons)))
     tree = leaf if plane is None else Node(plane, bounds, leaf, Leaf(bounds))
-    return World([Cell(CELL, Pose(CELL), Shape(corners, polygons, tree))], **world)
+    return prepared(World([Cell(CELL, Pose(CELL), Shape(corners, polygons, tree))], **world))
 
 
 @pytest.mark.parametrize(
@@ -158,7 +158,7 @@ def test_no_one_looks_behind_a_portal_out_of_reach(distance: float, lists: int) 
 def test_a_portal_to_a_cell_without_planes_is_always_looked_behind() -> None:
     """Such a cell is reached from everywhere."""
     open_room = Cell(OTHER, Pose(CELL), Shape([], [], Leaf((0.0, 0.0, 0.0, 1.0))))
-    world = World([Cell(CELL, Pose(CELL), triangle(), portals=[OTHER]), open_room])
+    world = prepared(World([Cell(CELL, Pose(CELL), triangle(), portals=[OTHER]), open_room]))
     assert taken(world, stride(mover(), 0.0, 3.0), Stage.PORTALS) == 0
     assert taken(world, stride(mover(), 0.0, 3.0), Stage.FLIGHT) == 0
 

@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 import pytest
-from engine_scenes import CELL, R, at, mover, triangle, world_of
+from engine_scenes import CELL, R, at, mover, prepared, triangle, world_of
 from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 
@@ -188,7 +188,7 @@ def test_portals_behind_steep_planes_are_looked_behind(length: float, skips: boo
     """A normal of 2**20 makes roundings of a point in a cell's frame longer than any slack."""
     shape = Shape([], [], Leaf((0, 0, 0, 1)), [(length, 0.0, 0.0, 0.0)])
     other = Cell(CELL + 1, Pose(CELL), shape)
-    world = World([Cell(CELL, Pose(CELL), triangle(), portals=[Portal(CELL + 1)]), other])
+    world = prepared(World([Cell(CELL, Pose(CELL), triangle(), portals=[Portal(CELL + 1)]), other]))
     assert any(skipped(world, across(0.0, 3.0, x=-3.0))[:4]) == skips
 
 
@@ -227,7 +227,7 @@ def worlds(draw: DrawFn) -> World:
     thing = Obstacle(Pose(CELL, draw(NEAR)), state=HAS_BSP, parts=parts)
     other = Cell(CELL + 1, Pose(CELL, draw(NEAR)), draw(shapes()))
     portals = draw(st.sampled_from(([], [Portal(CELL + 1)])))
-    return World([Cell(CELL, Pose(CELL), draw(shapes()), [thing], portals=portals), other])
+    return prepared(World([Cell(CELL, Pose(CELL), draw(shapes()), [thing], portals=portals), other]))
 
 
 @settings(deadline=None, max_examples=150, suppress_health_check=[HealthCheck.too_slow])

@@ -34,8 +34,14 @@ def seed_world() -> World:
 
 
 def world_of(shape: Shape, **cell: object) -> World:
-    """Return a world of one cell at the block's origin."""
-    return World([Cell(CELL, Pose(CELL), shape, **cell)])  # type: ignore[arg-type]
+    """Return a world of one cell at the block's origin, prepared."""
+    return prepared(World([Cell(CELL, Pose(CELL), shape, **cell)]))  # type: ignore[arg-type]
+
+
+def prepared(world: World) -> World:
+    """Return a world of which enough has been asked for all shortcuts to be taken."""
+    world.prepare()
+    return world
 
 
 def mover(state: int = 0, *, spheres: int = 1) -> Mover:

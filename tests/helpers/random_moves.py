@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 import numpy.typing as npt
+from engine_scenes import prepared
 
 from conformance.candidates.engine_ops.worlds import engine_world
 from conformance.strategies.worlds.sites import site
@@ -47,9 +48,9 @@ LONGEST = 1.5
 
 
 def world_at(name: str) -> World:
-    """Return the engine's world of a site of the random worlds."""
+    """Return the engine's world of a site of the random worlds, prepared."""
     place = site(name)
-    return engine_world(place.world, place.geometries)
+    return prepared(engine_world(place.world, place.geometries))
 
 
 def random_moves(name: str, rng: Generator, count: int) -> Rows:

@@ -105,8 +105,9 @@ class Recorder:
             capacity = int(state[at.TRACE_LENGTH])
 
     def _step_with_shortcuts(self, row: Array, quantum: float) -> tuple[Any, list[int]]:
-        """Run a tick of a body's row as batches do; return its record, and the objects it touched."""
+        """Run a tick of a body's row as large batches do; return its record, and the objects it touched."""
         world = self.world
+        world.prepare()
         state = world.new_row(plan=FULL_PLAN)
         times = np.array([[quantum, 1.0]])
         bodies = row.reshape(1, -1)

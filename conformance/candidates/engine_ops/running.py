@@ -77,7 +77,11 @@ def run_noting(job: int, world: World, row: Any) -> tuple[Any, str, list[int]]:
 
 
 def _run_with_shortcuts(world: World, row: Any) -> tuple[Any, list[int]]:
-    """Run a transition as batches do; return its result record, and the objects it touched."""
+    """Run a transition as large batches do; return its result record, and the objects it touched.
+
+    The world is prepared for it, so that every transition tests what shortcuts look up, too.
+    """
+    world.prepare()
     state = world.new_row(plan=FULL_PLAN)
     result = np.zeros(1, dtype=at.RESULT_DTYPE)
     query, answer = (numbers.reshape(1, -1) for numbers in (numbers_of(row), result.view(np.float64)))
