@@ -98,6 +98,8 @@ def _too_much(error: FieldError) -> Fault:
     """Place a mistake in the case's own words, in which segments stand for ticks."""
     first, *_ = parse_path(error.path)
     path: DocPath = ("mover", "spheres") if first == "mover" else ("query", first)
+    if first == "body":
+        path = ("query", "body", "spheres")
     return Fault(path, error.found, error.expected)
 
 

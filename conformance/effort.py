@@ -11,6 +11,7 @@ import math
 from typing import TYPE_CHECKING, Any, Final
 
 from conformance.fields import FieldError
+from conformance.floats import to_float32
 from oracle.constants import BLOCK_EDGE
 
 if TYPE_CHECKING:
@@ -30,7 +31,7 @@ _BYTE: Final = 0xFF
 
 
 def check_effort(inputs: Mapping[str, Any]) -> None:
-    """Check that a query is not beyond anybody's patience.
+    """Check that a query is not beyond anybody's patience, and that who moves has a radius to make steps of.
 
     Parameters
     ----------
@@ -40,19 +41,19 @@ def check_effort(inputs: Mapping[str, Any]) -> None:
     Raises
     ------
     FieldError
-        For too many ticks, or a move or placement of too many steps.
+        For too many ticks, a mover or body without a radius, or a move or placement of too many steps.
     """
     ticks = inputs.get("ticks") or ()
     if len(ticks) > MAX_TICKS:
         raise FieldError("ticks", f"{len(ticks)} ticks", f"at most {MAX_TICKS}")
     body, mover = inputs.get("body"), inputs.get("mover")
     if body is not None:
-        radius = _radius(body)
+        radius = _radius(body, "body")
         for index, tick in enumerate(ticks):
             _check(f"ticks[{index}].q", tick.get("q", 0.0) * MAX_SPEED, radius)
     if mover is None:
         return
-    radius = _radius(mover)
+    radius = _radius(mover, "mover")
     for index, tick in enumerate(ticks):
         _check(f"ticks[{index}].move", math.hypot(*tick.get("move", ())), radius)
     start, end = inputs.get("from"), inputs.get("to")
@@ -64,10 +65,17 @@ def check_effort(inputs: Mapping[str, Any]) -> None:
         )
 
 
-def _radius(block: Mapping[str, Any]) -> float:
-    """Return the radius of the first sphere, metres; infinite if there is none to go by."""
+def _radius(block: Mapping[str, Any], name: str) -> float:
+    """Return the radius of the first sphere, metres; infinite if there is none to go by.
+
+    A way is divided by it (05, NS-5), and it is never 0 (01, NM-9a).
+    """
     spheres = block.get("spheres") or ()
     size: float = spheres[0][3] * block.get("scale", 1.0) if spheres else math.inf
+    if not to_float32(size) > 0.0:
+        raise FieldError(
+            f"{name}.spheres", f"a first sphere of radius {size:.6g} m", "a radius greater than 0"
+        )
     return size
 
 
@@ -80,6 +88,6 @@ def _distance(start: Mapping[str, Any], end: Mapping[str, Any]) -> float:
 
 
 def _check(path: str, distance: float, radius: float) -> None:
-    if radius > 0.0 and distance > MAX_STEPS * radius:
+    if distance > MAX_STEPS * radius:
         found = f"{distance:.6g} m with a sphere of radius {radius:.6g} m"
         raise FieldError(path, found, f"a move of at most {MAX_STEPS} radii")

@@ -146,6 +146,61 @@ def test_more_work_than_anybody_has_time_for() -> None:
         check_effort({"mover": {**MOVER, "spheres": [[0.0, 0.0, 0.0, 1e-5]]}, "from": None, "to": POSE})
 
 
+@pytest.mark.parametrize(("radius", "scale"), [(0.0, 1.0), (-0.0, 1.0), (-0.5, 1.0), (1e-30, 1e-30)], ids=str)
+@pytest.mark.parametrize("name", ["mover", "body"])
+def test_nobody_moves_without_a_radius(name: str, radius: float, scale: float) -> None:
+    """Its way is divided by it, as a float32, into steps; the second sphere may be as it likes."""
+    spheres = [[0.0, 0.0, 0.0, radius], [0.0, 0.0, 1.0, 0.5]]
+    with pytest.raises(FieldError, match="a radius greater than 0") as caught:
+        check_effort({name: {**MOVER, "spheres": spheres, "scale": scale}, "from": POSE, "to": POSE})
+    assert caught.value.path == f"{name}.spheres"
+    check_effort({name: {**MOVER, "spheres": spheres[::-1], "scale": 1.0}, "from": POSE, "to": POSE})
+    check_effort({name: {**MOVER, "spheres": []}})
+
+
+STANDING = """\
+scene:
+  cells:
+    - id: 0xA9B40151
+      pose: {origin: [0, 0, 0], yaw: 0}
+      geometry: {tree: both, shapes: [floor: {size: [4, 4]}]}
+"""
+
+
+@pytest.mark.parametrize(
+    ("asked", "line"),
+    [
+        (
+            """\
+mover: {state: [],
+        spheres: [[0, 0, 0, 0]]}
+query: {op: transition, from: {cell: 0xA9B40151, origin: [0, 0, 1], yaw: 0},
+        to: {cell: 0xA9B40151, origin: [1, 0, 1], yaw: 0}, begin_cell: 0xA9B40151}
+""",
+            11,
+        ),
+        (
+            """\
+query: {op: body_walk, start: {cell: 0xA9B40151, origin: [0, 0, 1], yaw: 0}, quantum: 0.1,
+        ticks: [{still: 1}],
+        body: {spheres: [[0, 0, 0, -1]], state: [], transient_state: []}}
+""",
+            12,
+        ),
+    ],
+    ids=["mover", "body"],
+)
+def test_a_case_about_such_a_mover_is_located(tmp_path: Path, asked: str, line: int) -> None:
+    """At its spheres, with what was found and what is expected."""
+    path = tmp_path / "speck.yaml"
+    path.write_text(CASE + STANDING + asked, encoding="utf-8")
+    (problem,) = load_file(path).problems
+    assert problem.location.line == line
+    assert problem.path.endswith("spheres")
+    assert problem.found.startswith("a first sphere of radius ")
+    assert problem.expected == "a radius greater than 0"
+
+
 @pytest.mark.parametrize(
     ("raw", "said"),
     [
