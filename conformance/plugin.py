@@ -7,6 +7,7 @@ only what is meant for it, and adds nothing to a run that has no cases.
 from __future__ import annotations
 
 import os
+import re
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Final
 
@@ -22,6 +23,8 @@ if TYPE_CHECKING:
 
 BUILT_IN_CASES: Final = Path(__file__).parent / "cases"
 CASE_SUFFIXES: Final = (".yaml", ".yml")
+_CASE_KEYS: Final = re.compile(rb"^(?:\xef\xbb\xbf)?(?:cases|id|query|retail)[ \t]*:", re.MULTILINE)
+"""What a file of cases has and other YAML hardly: a case's keys, or that of a list of cases."""
 FIXTURES_VARIABLE: Final = "RETAIL_FIXTURES"
 DEFAULT_CANDIDATE: Final = "engine"
 
@@ -105,14 +108,17 @@ def pytest_configure(config: pytest.Config) -> None:
     config.stash[_COMPLAINTS] = []
     config.stash[_TALLY] = Tally()
     config.pluginmanager.register(config.stash[_TALLY], "conformance-tally")
-    config.stash[_EXPECTS_CASES] = bool(given) or _covers(config, BUILT_IN_CASES)
+    folders = given or [BUILT_IN_CASES]
+    named = [path for path in _named_files(config) if not any(map(path.is_relative_to, folders))]
+    asks_for_all = bool(given) or _covers(config, BUILT_IN_CASES)
+    config.stash[_EXPECTS_CASES] = asks_for_all or bool(named)
     if config.stash[_EXPECTS_CASES]:
         # Where the terminal lacks one character pytest would escape a failure whole, line ends included.
         from conformance.console import tolerate_unprintable
 
         tolerate_unprintable()
-    found = _found_cases(config) if config.stash[_EXPECTS_CASES] else []
-    config.stash[_FOLDERS] = tuple(given or [BUILT_IN_CASES])
+    found = _found_cases(config) if asks_for_all else []
+    config.stash[_FOLDERS] = (*folders, *named)
     config.args[:] = [
         *(str(path) for path in found if not _covers(config, path)),
         *config.args,
@@ -131,6 +137,28 @@ def _case_path(text: str) -> Path:
 
 def _case_files(folder: Path) -> Iterable[Path]:
     return (path for path in folder.rglob("*") if path.suffix in CASE_SUFFIXES)
+
+
+def _named_files(config: pytest.Config) -> list[Path]:
+    """List the case files that the run asks for one by one, wherever they are."""
+    asked = {Path(arg.partition("::")[0]).resolve() for arg in config.args}
+    return sorted(path for path in asked if path.suffix in CASE_SUFFIXES and _has_cases(path))
+
+
+def _has_cases(path: Path) -> bool:
+    """Tell whether a file is meant to hold cases, whatever is wrong with them: not all YAML is ours."""
+    try:
+        return bool(_CASE_KEYS.search(path.read_bytes()))
+    except OSError:  # pytest says what is wrong with an argument
+        return False
+
+
+def _case_folders(config: pytest.Config) -> list[str]:
+    """List the folders that the run asks for in vain: with cases, but no tests."""
+    if config.args_source is not config.ArgsSource.ARGS:
+        return []
+    folders = [arg for arg in config.args if Path(arg).is_dir()]
+    return [arg for arg in folders if any(map(_has_cases, _case_files(Path(arg))))]
 
 
 def _check_candidate(config: pytest.Config) -> None:
@@ -191,7 +219,7 @@ def _found_cases(config: pytest.Config) -> list[Path]:
 
 
 def pytest_collect_file(file_path: Path, parent: pytest.Collector) -> pytest.Collector | None:
-    """Collect YAML files, but only those of the case folders."""
+    """Collect YAML files, but only those of the case folders, and those that are asked for by name."""
     if file_path.suffix not in CASE_SUFFIXES:
         return None
     whole = file_path.resolve()
@@ -269,8 +297,8 @@ def pytest_testnodedown(node: Any, error: object) -> None:
     told += [text for text in output.get(_WORKER_COMPLAINTS, ()) if text not in told]
 
 
-def pytest_terminal_summary(terminalreporter: Any, config: pytest.Config) -> None:
-    """Say what was compared, what was skipped, and the first difference of each failed case."""
+def pytest_terminal_summary(terminalreporter: Any, exitstatus: int, config: pytest.Config) -> None:
+    """Say what was compared, what was skipped, and how cases are run that were asked for in vain."""
     counts = config.stash[_TALLY].counts
     if counts or config.stash[_EXPECTS_CASES]:
         terminalreporter.section("conformance")
@@ -280,6 +308,11 @@ def pytest_terminal_summary(terminalreporter: Any, config: pytest.Config) -> Non
             terminalreporter.write_line(f"conformance: {stopping}", red=True)
         if complaint := _complaint(config):
             terminalreporter.write_line(f"conformance: {complaint}", red=True)
+    elif exitstatus == pytest.ExitCode.NO_TESTS_COLLECTED:
+        for folder in _case_folders(config):
+            terminalreporter.write_line(
+                f"conformance: {folder} holds cases; to run them: --cases {folder}", red=True
+            )
 
 
 @pytest.fixture(scope="session")

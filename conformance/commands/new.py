@@ -69,7 +69,7 @@ def run(args: argparse.Namespace) -> int:
     console.print(f"{path}: {args.id}, like {case.id}")
     console.print("Give it a title, a `why` and a scene of its own, then check and run it:")
     console.print(f"  conformance lint {path}")
-    console.print(f"  pytest {path} --cases {path}")
+    console.print(f"  pytest {path}")
     return exit_codes.OK
 
 

@@ -77,6 +77,6 @@ def _failing(kind: FailureKind, failing: Failing, plan: Plan, candidate: str) ->
         yield "  not kept as a case"
     else:
         path = plan.found / failing.kept.file
-        yield f'  rerun: pytest "{path}" --cases "{path}" --candidate {quoted_spec(candidate)}'
+        yield f'  rerun: pytest "{path}" --candidate {quoted_spec(candidate)}'
         if not failing.kept.alone:
             yield "  asked by itself, of a candidate that was asked nothing before, it does not fail"

@@ -39,7 +39,7 @@ def test_a_new_case_is_another_under_a_new_id(tmp_path: Path, capsys: pytest.Cap
         f"my-cases/ramp.yaml: my-ramp, like {ORIGIN}",
         "Give it a title, a `why` and a scene of its own, then check and run it:",
         "  conformance lint my-cases/ramp.yaml",
-        "  pytest my-cases/ramp.yaml --cases my-cases/ramp.yaml",
+        "  pytest my-cases/ramp.yaml",
     ]
     file = tmp_path / "my-cases" / "ramp.yaml"
     assert file.read_text(encoding="utf-8").startswith(

@@ -201,6 +201,64 @@ def test_other_yaml_is_left_alone(run: pytest.Pytester) -> None:
     assert not [line for line in result.outlines if line.startswith(("conformance:", "=== conformance"))]
 
 
+def test_a_file_is_run_by_its_name(run: pytest.Pytester) -> None:
+    """Or one case of it; and nothing besides: neither the suite's cases nor found ones, nor neighbours."""
+    several = "cases:\n" + "".join(
+        "  - " + GOOD.format(id=name).replace("\n", "\n    ").rstrip() + "\n" for name in ("one", "two")
+    )
+    case_file(run, "mine/a.yaml", several)
+    case_file(run, "mine/b.yaml", GOOD.format(id="three"))
+    case_file(run, ".conformance/found/found-1.yaml", GOOD.format(id="found"))
+    path = str(Path("mine", "a.yaml"))
+    whole = run.runpytest_inprocess(path, "--candidate", "oracle", "-v")
+    whole.assert_outcomes(passed=2)
+    whole.stdout.fnmatch_lines(["conformance: 2 cases, 2 queries compared*"])
+    one = run.runpytest_inprocess(f"{run.path / path}::two", "--candidate", "oracle", "-v")
+    one.assert_outcomes(passed=1)
+    one.stdout.fnmatch_lines(["mine/a.yaml::two PASSED*"])
+
+
+def test_a_file_is_run_besides_what_else_is_asked_for(run: pytest.Pytester) -> None:
+    """Tests, other files, and a folder of cases, in which it may be, too."""
+    run.makepyfile("def test_passes(): pass")
+    for name, folder in (("one", "mine"), ("two", "mine"), ("three", "other")):
+        case_file(run, f"{folder}/{name}.yaml", GOOD.format(id=name))
+    options = "--cases", "mine", "--candidate", "oracle"
+    run.runpytest_inprocess("other/three.yaml", *options).assert_outcomes(passed=3)
+    run.runpytest_inprocess("mine/one.yaml", *options).assert_outcomes(passed=2)
+    run.runpytest_inprocess(".", "other/three.yaml", *options[2:]).assert_outcomes(passed=2)
+
+
+def test_what_is_wrong_with_a_named_file_is_told(run: pytest.Pytester) -> None:
+    """It is one of cases if it has a single key of a case; a file that can't be parsed is, too."""
+    case_file(run, "typo.yaml", GOOD.format(id="one").replace("query:", "querry:"))
+    case_file(run, "colon.yaml", "\ufeffid: one\ntitle: a: b\n")
+    result = run.runpytest_inprocess("typo.yaml", "colon.yaml", "--candidate", "oracle")
+    result.assert_outcomes(failed=2)
+    result.stdout.fnmatch_lines(["*typo.yaml:*: querry", "*did you mean 'query'*", "*colon.yaml:2:*"])
+
+
+def test_a_named_file_of_another_kind_is_left_alone(run: pytest.Pytester) -> None:
+    """Another plug-in may know it; pytest says if none does."""
+    case_file(run, "compose.yaml", "services: {}\n")
+    result = run.runpytest_inprocess("compose.yaml")
+    assert result.ret == pytest.ExitCode.USAGE_ERROR
+    result.stderr.fnmatch_lines(["ERROR: *compose.yaml*"])
+
+
+def test_a_folder_of_cases_names_the_option(run: pytest.Pytester) -> None:
+    """Where nothing is run; a run of the project's own tests says nothing of it."""
+    case_file(run, "mine/a.yaml", GOOD.format(id="one"))
+    case_file(run, "theirs/compose.yaml", "services: {}\n")
+    result = run.runpytest_inprocess("mine", "theirs")
+    assert result.ret == pytest.ExitCode.NO_TESTS_COLLECTED
+    result.stdout.fnmatch_lines(["conformance: mine holds cases; to run them: --cases mine"])
+    result.stdout.no_fnmatch_line("*theirs holds cases*")
+    result = run.runpytest_inprocess()
+    assert result.ret == pytest.ExitCode.NO_TESTS_COLLECTED
+    result.stdout.no_fnmatch_line("*holds cases*")
+
+
 def test_a_broken_case_fails_and_the_others_run(run: pytest.Pytester) -> None:
     """It fails with every mistake, located; its neighbours are run."""
     text = "cases:\n" + "".join(

@@ -61,7 +61,7 @@ def test_a_wrong_engine_is_red(tmp_path: Path, capsys: pytest.CaptureFixture[str
     assert soak(tmp_path, engine("Faulty"), queries="60") == exit_codes.FAILURES
     said = capsys.readouterr().out
     (case,) = (tmp_path / "found").iterdir()
-    assert f'  rerun: pytest "{case}" --cases "{case}" --candidate mod:soak_engines:Faulty' in said
+    assert f'  rerun: pytest "{case}" --candidate mod:soak_engines:Faulty' in said
     assert "  not kept as a case" in said
     kinds = said.count("  first in shard ")
     assert f"only counted, because enough others came before: {kinds - 1}; mend those first" in said
@@ -76,7 +76,7 @@ def test_what_was_found_can_be_run_again(pytester: pytest.Pytester, name: str, o
     assert soak(pytester.path / "soak", engine("Faulty"), queries="60") == exit_codes.FAILURES
     (case,) = (pytester.path / "soak" / "found").iterdir()
     pytester.makeconftest("from conformance.conftest import pytest_addoption\n")
-    options = (str(case), "--cases", str(case), "--candidate", engine(name))
+    options = (str(case), "--candidate", engine(name))
     pytester.runpytest_inprocess(*options).assert_outcomes(**{outcome: 1})
 
 

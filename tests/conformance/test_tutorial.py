@@ -78,7 +78,7 @@ def test_a_newcomer_gets_what_the_tutorial_says(
             assert [line for line in block.text.splitlines() if line not in printed] == []
     assert [command.split()[:2] for command in commands] == [
         ["conformance", "lint"],
-        ["pytest", "my-cases"],
+        ["pytest", "my-cases/ramp.yaml"],
         ["conformance", "explain"],
     ]
     assert run(commands[1], pytester, capsys)[-1].startswith("=")
