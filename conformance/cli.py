@@ -71,8 +71,9 @@ _DESCRIPTION: Final = """\
 Is a re-implementation of Asheron's Call movement and collision the same as retail?
 
 The cases themselves run under pytest:
-  pytest --pyargs conformance                     every case, engine against oracle
-  pytest --pyargs conformance --candidate SPEC    another candidate
+  pytest conformance                     every case, engine against oracle
+  pytest conformance --candidate SPEC    another candidate
+  pytest my-case.yaml                    a file of your own
 """
 
 

@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, Any, Final
 
 from conformance.case import Case, Loaded, Vary
 from conformance.case_maker import load_case
+from conformance.installed import installed
 from conformance.source import Fault, Location, Problem, describe
 from conformance.yaml_source import Document, YamlError, read_document
 
@@ -82,6 +83,7 @@ def load_mentioning(word: str, vary: Vary = AS_WRITTEN) -> Loaded:
 
 def case_files(path: Path) -> list[Path]:
     """List the case files at or below a path, sorted; raises `NoCasesError` if there are none."""
+    path = installed(path)
     if path.is_file():
         return [path]
     if not path.is_dir():

@@ -13,6 +13,7 @@ from typing import TYPE_CHECKING, Any, Final
 
 import pytest
 
+from conformance.installed import installed
 from conformance.option_types import positive, whole_from
 from conformance.summary import Counts
 
@@ -100,6 +101,7 @@ def pytest_addoption(parser: pytest.Parser) -> None:
 def pytest_configure(config: pytest.Config) -> None:
     """Decide which folders hold cases, and see that a run of the suite visits them."""
     config.addinivalue_line("markers", "conformance: a YAML case, compared with retail")
+    config.args[:] = map(_installed, config.args)
     given = [_case_path(text) for text in config.getoption("--cases", [])]
     _check_candidate(config)
     _check_topics(config)
@@ -126,8 +128,16 @@ def pytest_configure(config: pytest.Config) -> None:
     ]
 
 
+def _installed(arg: str) -> str:
+    """Return an argument of pytest; one that names the suite where it is not means what is installed."""
+    path, *rest = arg.split("::")
+    return (
+        "::".join((str(installed(Path(path))), *rest)) if path.startswith(Path(__file__).parent.name) else arg
+    )
+
+
 def _case_path(text: str) -> Path:
-    path = Path(text).resolve()
+    path = installed(Path(text)).resolve()
     if not path.exists():
         raise pytest.UsageError(f"--cases {text}: there is no such folder or file")
     if path.is_dir() and not any(_case_files(path)):

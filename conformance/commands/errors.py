@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Final
 
 from conformance import exit_codes
 from conformance.commands.options import UsageError
+from conformance.installed import installed
 from conformance.option_types import whole_from
 
 if TYPE_CHECKING:
@@ -121,7 +122,7 @@ def _recorded(files: list[Path]) -> Iterator[Query]:
     from conformance.vector_io import read_vectors
     from conformance.vector_library import Library
 
-    for path in files:
+    for path in map(installed, files):
         if not path.is_file():
             raise UsageError(f"no such file: {path}")
         for record in read_vectors(path, Library(path.parent)):

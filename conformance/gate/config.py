@@ -9,6 +9,7 @@ from typing import Annotated, Final
 from pydantic import Field, field_validator
 
 from conformance.gate.outcome import Stage
+from conformance.installed import installed
 from conformance.schema.mistakes import mistake
 from conformance.schema.values import Strictly
 from conformance.source import nearest, quoted
@@ -151,7 +152,9 @@ def read_config(path: Path, preset: Gate) -> Gate:
 def _changed(preset: Gate, file: GateFile, folder: Path) -> Gate:
     gate = replace(
         preset,
-        cases=preset.cases if file.cases is None else tuple(folder / name for name in file.cases),
+        cases=preset.cases
+        if file.cases is None
+        else tuple(folder / installed(Path(name)) for name in file.cases),
         case_poses=file.case_poses or preset.case_poses,
         poses=file.poses or preset.poses,
         walks=file.walks or preset.walks,

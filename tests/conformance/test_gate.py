@@ -291,6 +291,15 @@ def test_a_configuration_changes_a_preset(tmp_path: Path) -> None:
     )
 
 
+def test_the_suite_can_be_named_where_it_is_not(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """Beside cases of one's own; elsewhere than in a clone it is what is installed."""
+    path = tmp_path / "gate.yaml"
+    path.write_text("cases: [conformance/cases, mine]\n", encoding="utf-8")
+    monkeypatch.chdir(tmp_path)
+    asked = config.read_config(path, config.QUICK).cases
+    assert asked == (Path(config.__file__).parents[1] / "cases", tmp_path / "mine")
+
+
 def test_stress_families_are_those_there_are() -> None:
     """They are named twice, because those of the suite come with an extra."""
     pytest.importorskip("flint", reason="the extra `exact` is not installed")

@@ -229,6 +229,19 @@ def test_a_file_is_run_besides_what_else_is_asked_for(run: pytest.Pytester) -> N
     run.runpytest_inprocess(".", "other/three.yaml", *options[2:]).assert_outcomes(passed=2)
 
 
+def test_the_suite_is_run_where_it_is_not(run: pytest.Pytester) -> None:
+    """As documents and messages name it; a folder of that name would come first."""
+    origin = "conformance/cases/contact-plane/origin.yaml"
+    result = run.runpytest_inprocess(f"{origin}::origin-step-down-touching", "--candidate", "oracle")
+    result.assert_outcomes(passed=1)
+    run.runpytest_inprocess("--cases", origin, "--candidate", "oracle", "--co").stdout.fnmatch_lines(
+        ["*origin-step-down-touching*"]
+    )
+    run.mkdir("conformance")
+    result = run.runpytest_inprocess(origin)
+    assert result.ret == pytest.ExitCode.USAGE_ERROR
+
+
 def test_what_is_wrong_with_a_named_file_is_told(run: pytest.Pytester) -> None:
     """It is one of cases if it has a single key of a case; a file that can't be parsed is, too."""
     case_file(run, "typo.yaml", GOOD.format(id="one").replace("query:", "querry:"))
