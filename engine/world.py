@@ -15,7 +15,7 @@ from engine.compiling.bounds import write_bounds
 from engine.compiling.cell_trees import CellTree, cell_trees
 from engine.compiling.cells import CellNumbers, ObjectLists, write_buildings, write_cells
 from engine.compiling.ids import id_table
-from engine.compiling.near import queries_that_pay, with_what_is_near
+from engine.compiling.near import queries_expected_to_pay, with_what_is_near
 from engine.compiling.objects import Parts, write_objects
 from engine.compiling.restrictions import write_restrictions
 from engine.compiling.slopes import write_slopes
@@ -131,7 +131,7 @@ class World:
         self._spare_rows: Final[list[Array]] = []
         self._unprepared: Final[list[list[CellTree]]] = [cell_trees(storage, cells)]
         self._asked = 0
-        self._enough = queries_that_pay(self._unprepared[0])
+        self._enough = queries_expected_to_pay(self._unprepared[0])
 
     @property
     def arrays(self) -> tuple[Array, Ints]:
@@ -207,7 +207,7 @@ class World:
             raise
 
     def arrays_for(self, count: int, plan: Plan) -> tuple[Array, Ints]:
-        """Return `arrays` for so many more queries; it is prepared before, if that may pay by now."""
+        """Return `arrays` for so many more queries; it is prepared before, if they are enough by now."""
         self._asked += count
         if self._asked >= self._enough and plan.skip & _LOOKING_UP:
             self.prepare()

@@ -35,7 +35,7 @@ from engine.query import move_rows
 if TYPE_CHECKING:
     from engine.query import Rows
 
-ENOUGH = near._QUERIES_PER_POLYGON
+ENOUGH = near._FEWEST
 """Queries of a world of one polygon."""
 FALL = Move(mover(spheres=2), at(0.0, 0.0, R + 0.0005), CELL, start=at(0.0, 0.0, 0.75))
 """To half a millimetre above the floor: too near for a free flight, and it touches nothing."""
@@ -234,6 +234,7 @@ def test_a_world_that_was_pickled_goes_on(prepare: bool) -> None:
 
 def test_many_polygons_need_many_queries() -> None:
     """What is made takes longer, the more there are; a world without any never has enough."""
-    trees: Any = [type("Tree", (), {"shape": triangle()})] * 3
-    assert near.queries_that_pay(trees) == 3 * ENOUGH
-    assert near.queries_that_pay([]) == math.inf
+    tree: Any = type("Tree", (), {"shape": triangle()})
+    assert near.queries_expected_to_pay([tree] * 3) == ENOUGH
+    assert near.queries_expected_to_pay([tree] * 3 * ENOUGH) == 3 * ENOUGH
+    assert near.queries_expected_to_pay([]) == math.inf
