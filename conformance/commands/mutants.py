@@ -59,7 +59,7 @@ def configure(parser: argparse.ArgumentParser) -> None:
         "--documents",
         nargs="+",
         metavar="NN",
-        help="documents whose functions are mutated (default: 02 03 04 05)",
+        help="documents whose functions are mutated (default: all, 01 to 10)",
     )
     options.add_argument("--sample", type=whole_from(1), metavar="N", help="only N mutants, drawn at random")
     options.add_argument("--seed", type=int, default=0, help="of the drawing (default: %(default)s)")

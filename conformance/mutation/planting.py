@@ -63,7 +63,8 @@ class Seed:
 
     def _compiled(self) -> CodeType:
         mutant = self._plan.mutant
-        statement = _alone(self._plan.tree, mutant.function.split("."))
+        free = self.function.__code__.co_freevars
+        statement = _alone(self._plan.tree, mutant.function.split("."), free)
         module = ast.Module([*_FUTURE, statement], [])
         compiled = compile(ast.fix_missing_locations(module), self.function.__code__.co_filename, "exec")
         return next(code for code in _nested(compiled) if code.co_qualname == mutant.function)
@@ -78,15 +79,21 @@ def _bare(attribute: Any) -> FunctionType:
     return function
 
 
-def _alone(owner: ast.Module | ast.ClassDef, names: list[str]) -> ast.stmt:
-    """Return a function inside the classes that it is defined in, and nothing beside it."""
+def _alone(owner: ast.Module | ast.ClassDef, names: list[str], free: tuple[str, ...]) -> ast.stmt:
+    """Return a function inside the classes that it is defined in, and nothing beside it.
+
+    Code can only be exchanged for code with the same free variables, and a mutant may have lost the `super()`
+    that made `__class__` one of them: they are named once more, where it does not matter.
+    """
     name, *inner = names
     found = next(node for node in owner.body if isinstance(node, _NAMED) and node.name == name)
     alone = copy(found)
     alone.decorator_list = []
     if isinstance(alone, ast.ClassDef):
         alone.bases = []
-        alone.body = [_alone(alone, inner)]
+        alone.body = [_alone(alone, inner, free)]
+    else:
+        alone.body = [*alone.body, *(ast.Expr(ast.Name(name, ast.Load())) for name in free)]
     return alone
 
 

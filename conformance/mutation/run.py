@@ -27,8 +27,8 @@ if TYPE_CHECKING:
 
     Asked: TypeAlias = tuple[Sequence[Question], Mapping[str, Reach]]
 
-DOCUMENTS: Final = ("02", "03", "04", "05")
-"""Documents whose functions are mutated unless others are asked for: polygons, trees, path, transition."""
+DOCUMENTS: Final = tuple(f"{number:02d}" for number in range(1, 11))
+"""Documents whose functions are mutated unless others are asked for: all that functions are ported from."""
 
 
 class WorkerLostError(RuntimeError):
