@@ -34,7 +34,7 @@ _OTHER_CHILD: Final = {
     "negative": "positive",
 }
 """A node's children, by the names of their fields and of the variables that hold them."""
-_SYMMETRIC: Final = frozenset({"dot_x", "dot_z", "is_equal", "min"})
+_SYMMETRIC: Final = frozenset({"dot_x", "dot_z", "in_bounds", "is_equal", "min", "plus"})
 """Functions that answer the same, bit for bit, whichever of two arguments comes first."""
 
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import ctypes
+import gc
 import threading
 import time
 from contextlib import contextmanager
@@ -34,7 +35,22 @@ class Watchdog:
 
     @contextmanager
     def limit(self, seconds: float) -> Iterator[None]:
-        """Raise `OutOfTimeError` inside the block, if it takes more processor time than this."""
+        """Raise `OutOfTimeError` inside the block, if it takes more processor time than this.
+
+        Garbage is not collected meanwhile: callbacks of the collector, such as Hypothesis', swallow errors
+        that arrive while they run, and what is limited would go on for ever.
+        """
+        collected = gc.isenabled()
+        gc.disable()
+        try:
+            with self._limited(seconds):
+                yield
+        finally:
+            if collected:
+                gc.enable()
+
+    @contextmanager
+    def _limited(self, seconds: float) -> Iterator[None]:
         self._raised = False
         self._deadline = time.process_time() + seconds
         try:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import gc
 import sys
 from contextlib import suppress
 
@@ -38,6 +39,16 @@ def test_tracing_works_after_a_limit() -> None:
     finally:
         sys.settrace(before)
     assert called == ["_traced"]
+
+
+def test_nothing_is_collected_in_the_block() -> None:
+    """A callback of the collector would swallow the error, once and for all."""
+    with Watchdog().limit(30.0):
+        assert not gc.isenabled()
+    assert gc.isenabled()
+    with pytest.raises(OutOfTimeError), Watchdog().limit(0.05):
+        _swallow_errors()
+    assert gc.isenabled()
 
 
 def _traced() -> None:
