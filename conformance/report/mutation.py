@@ -41,6 +41,9 @@ beside a constant. They also write each mutant to disk and start a test run for 
 takes a tenth of a millisecond. Here the code of one function is exchanged in memory; only questions whose
 answers run the changed line are asked, cases before poses and quick ones first, up to the first difference.
 
+Much of what is not noticed is another order of a sum that stays in a register: that changes the last bit of a
+double, and the store to float32 after it hides it for nearly all numbers there are.
+
 Random poses depend on Hypothesis' version a little; what cases notice does not.
 
 Regenerate this page with `conformance mutants --output docs/mutation-score.md`.
