@@ -31,7 +31,7 @@ no more than a batch."""
 def queries_expected_to_pay(trees: Sequence[CellTree]) -> float:
     """Return how many queries of a world it takes for grids and lattices to be made: one for each polygon.
 
-    Each takes 0.06 to 0.3 microseconds less with them, and they 0.15 to 0.3 milliseconds for each polygon.
+    Each takes 0.06 to 0.3 microseconds less with them, and they 0.13 to 0.3 milliseconds for each polygon.
     Only 500 to 4,500 queries make up for that; but whoever asks as many as there are polygons, in a batch or
     in a second of play, is about to ask as many again and again, and is answered evenly from then on. Who
     stops there has lost what it took to make them, once.

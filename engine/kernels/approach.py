@@ -24,6 +24,7 @@ from engine.kernels.vector import load
 from engine.layout import (
     CELL_TREE,
     MATRIX,
+    NO_TREE,
     ORIGIN,
     POLYGON_CORNERS,
     POSE_ORIGIN,
@@ -79,6 +80,8 @@ def _find_entry(wf: Array, wi: Ints, q: Array) -> tuple[int, int, int]:
         return NOWHERE, 0, 0
     cell = int(q[Q_TARGET_CELL])
     root = wi[ints_of(wi, cell) + CELL_TREE]
+    if root == NO_TREE:
+        return NOWHERE, 0, 0
     x, y, z = _place(wf, position_of(wi, cell), q)
     entry, cube = cube_at(wf, wi, root, x, y, z)
     if entry != NOWHERE:

@@ -10,9 +10,9 @@ import numpy as np
 import pytest
 
 from conformance.bench.sampling import tree_calls
-from conformance.bench.scenes import make_scene
+from conformance.bench.scenes import CELL, make_scene
 from conformance.bench.spots import Surfaces
-from engine import QueryError, find_collisions_many
+from engine import Cell, Pose, QueryError, World, find_collisions_many
 from engine import layout as at
 from engine.kernels.ahead import bring_near
 from engine.kernels.approach import MOST, NO_STEPS, STEPS, approach, is_large
@@ -43,12 +43,12 @@ def calls(building: BenchScene) -> Rows:
     return tree_calls(building, Surfaces(building.geometry), np.random.default_rng(1), CALLS).rows
 
 
-def brought(scene: BenchScene, rows: Rows) -> list[list[tuple[bool, int]]]:
+def brought(world: World, rows: Rows) -> list[list[tuple[bool, int]]]:
     """Return what has been brought in the turn of each row, as in a batch, and in those before the first.
 
     Each is a place, and whether it is one of the world's floats.
     """
-    floats, ints = scene.world.floats, scene.world.ints
+    floats, ints = world.arrays
     places: list[tuple[bool, int]] = []
     noted = {bring_near: lambda array, first, _: places.append((array is floats, int(first)))}
     step: Any = Interpreter(noted).function(approach)
@@ -87,7 +87,7 @@ def test_the_polygons_of_a_call_are_brought_in_the_turn_before_its_own(
     building: BenchScene, calls: Rows
 ) -> None:
     """They are those that its sphere's cube lists, the first of them; and there are some."""
-    turns = brought(building, calls)
+    turns = brought(building.world, calls)
     found = 0
     for call, center in enumerate(looked_up(building, calls)):
         expected = polygons_near(building, center)[: int(MOST)]
@@ -119,7 +119,7 @@ def test_nothing_is_brought_for_who_is_in_no_cube(building: BenchScene, calls: R
     """A place that is no number, or beyond all cubes, is looked up nowhere."""
     rows = calls[:3].copy()
     rows["end"][:, -1] = place
-    assert brought(building, rows) == [[]] * (len(rows) + STEPS - 1)
+    assert brought(building.world, rows) == [[]] * (len(rows) + STEPS - 1)
 
 
 @pytest.mark.parametrize("cell", NOT_A_CELL)
@@ -129,7 +129,13 @@ def test_nothing_is_brought_for_a_cell_that_is_not_there(
     """A row that names no cell is refused in its turn, and not looked into before."""
     rows = calls[:3].copy()
     rows["target_cell"] = cell
-    assert brought(building, rows) == [[]] * (len(rows) + STEPS - 1)
+    assert brought(building.world, rows) == [[]] * (len(rows) + STEPS - 1)
+
+
+def test_nothing_is_brought_for_a_cell_without_a_tree(calls: Rows) -> None:
+    """It has no gate, nor has it a place before the first of the numbers."""
+    rows = calls[:3].copy()
+    assert brought(World([Cell(CELL, Pose(CELL), None)]), rows) == [[]] * (len(rows) + STEPS - 1)
 
 
 def test_strangers_between_others_change_no_answer(building: BenchScene, calls: Rows) -> None:
