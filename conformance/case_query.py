@@ -95,12 +95,10 @@ def make_query(case: CaseModel, maker: SceneMaker) -> Query | None:
 
 
 def _too_much(error: FieldError) -> Fault:
-    """Place a mistake in the case's own words, in which segments stand for ticks."""
-    first, *_ = parse_path(error.path)
-    path: DocPath = ("mover", "spheres") if first == "mover" else ("query", first)
-    if first == "body":
-        path = ("query", "body", "spheres")
-    return Fault(path, error.found, error.expected)
+    """Place a mistake in the case's own words: its mover stands beside its query, and segments for ticks."""
+    first, *inner = parse_path(error.path)
+    path: DocPath = (first, *(inner if first != "ticks" else ()))
+    return Fault(path if first == "mover" else ("query", *path), error.found, error.expected)
 
 
 def _scene_inputs(case: CaseModel, maker: SceneMaker) -> dict[str, Any]:

@@ -129,6 +129,7 @@ class World:
         write_slopes(*self._arrays, roots, len(parts))
         self._polygons: Final = storage.polygons
         self._spare_rows: Final[list[Array]] = []
+        # In a list, from which one thread takes it.
         self._unprepared: Final[list[list[CellTree]]] = [cell_trees(storage, cells)]
         self._asked = 0
         self._enough = queries_expected_to_pay(self._unprepared[0])

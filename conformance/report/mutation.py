@@ -44,8 +44,7 @@ answers run the changed line are asked, cases before poses and quick ones first,
 Much of what is not noticed is another order of a sum that stays in a register: that changes the last bit of a
 double, and the store to float32 after it hides it for nearly all numbers there are.
 
-The command fails below a score of 95 % (`--least`): the goal, which documents 02 to 05 have reached by
-themselves, and all together not yet.
+The command fails below the score that is the goal, or that `--least` says.
 
 Random poses depend on Hypothesis' version a little; what cases notice does not.
 

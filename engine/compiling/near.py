@@ -6,6 +6,7 @@ world. So they are not part of it when it is made, but appended when it is prepa
 
 from __future__ import annotations
 
+import math
 from typing import TYPE_CHECKING, Final
 
 import numpy as np
@@ -37,7 +38,7 @@ def queries_expected_to_pay(trees: Sequence[CellTree]) -> float:
     stops there has lost what it took to make them, once.
     """
     polygons = sum(len(tree.shape.polygon_offsets) for tree in trees)
-    return float(max(polygons, _FEWEST)) if polygons else float("inf")
+    return max(polygons, _FEWEST) if polygons else math.inf
 
 
 def with_what_is_near(floats: Array, ints: Ints, trees: Sequence[CellTree]) -> tuple[Array, Ints]:

@@ -77,10 +77,9 @@ class Storage(Growing):
     def _add_gate(self, shape: Shape) -> None:
         """Append what stands before a root, in the room of two nodes."""
         floats: Array = np.zeros((at.GATE_NODES, at.NODE_FLOATS), dtype=np.float64)
-        ints: Ints = np.zeros((at.GATE_NODES, at.NODE_INTS), dtype=np.int64)
         floats[at.GATE, at.GATE_RADIUS] = gate_radius(shape)
         self._node_floats.append(floats.ravel())
-        self._node_ints.append(ints.ravel())
+        self._node_ints.append(np.zeros(at.GATE_NODES * at.NODE_INTS, dtype=np.int64))
 
     def _add_shape(self, index: int, shape: Shape, first: int) -> None:
         """Append a shape; its tree gets node numbers from `first` on."""
