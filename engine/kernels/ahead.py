@@ -1,7 +1,9 @@
 """Rows brought near before their turn: a row of results is eleven cache lines that nobody has read yet.
 
 Near is the first cache, for what takes less time than it takes to bring its rows; else the second, so that
-what the query at hand needs of the world is not driven out of the first.
+what the query at hand needs of the world is not driven out of the first. What is going to be written has to
+be taken from all other processors' caches. What is only read must not: they may be reading it, too, and a
+processor may write it back to memory as if it had been changed.
 """
 
 from __future__ import annotations
@@ -20,16 +22,18 @@ if TYPE_CHECKING:
 
 LINE: Final = frozen(8)
 """Numbers in a cache line."""
-_FOR_WRITING: Final = 1
+_READ: Final = 0
+_WRITTEN: Final = 1
+"""What LLVM is told that will be done with a place,"""
 _DATA: Final = 1
-"""What LLVM is told of a place: it will be written to, and is no code."""
+"""and that it is no code."""
 _FIRST: Final = 3
 _SECOND: Final = 2
 """How LLVM numbers caches."""
 
 
-def _hint(cache: int) -> Any:
-    """Return the intrinsic that has an element of an array brought into a cache."""
+def _hint(use: int, cache: int) -> Any:
+    """Return the intrinsic that has an element of an array brought into a cache, to be read or written."""
 
     def generate(context: Any, builder: Any, signature: Any, arguments: Any) -> Any:
         array = context.make_array(signature.args[0])(context, builder, arguments[0])
@@ -37,7 +41,7 @@ def _hint(cache: int) -> Any:
         number = ir.IntType(32)
         kind = ir.FunctionType(ir.VoidType(), [place.type, number, number, number])
         fetch = builder.module.declare_intrinsic("llvm.prefetch", [place.type], kind)
-        builder.call(fetch, [place, *(ir.Constant(number, k) for k in (_FOR_WRITING, cache, _DATA))])
+        builder.call(fetch, [place, *(ir.Constant(number, k) for k in (use, cache, _DATA))])
         return context.get_dummy_value()
 
     def prefetch(_typing: Any, numbers: Any, _place: Any) -> Any:
@@ -47,20 +51,28 @@ def _hint(cache: int) -> Any:
     return intrinsic(prefetch)
 
 
-_to_first: Final[Any] = _hint(_FIRST)
-_to_second: Final[Any] = _hint(_SECOND)
+_read_from_first: Final[Any] = _hint(_READ, _FIRST)
+_read_from_second: Final[Any] = _hint(_READ, _SECOND)
+_written_to_first: Final[Any] = _hint(_WRITTEN, _FIRST)
 
 
 @inlined
 def bring_near(rows: Array | Ints, first: int, count: int) -> None:
-    """Have so many numbers of an array's memory, from the first on, brought into the first cache."""
+    """Have so many of an array's numbers, from the first on, brought into the first cache, to be read."""
     for k in range(0, count, LINE):
-        _to_first(rows, first + k)
+        _read_from_first(rows, first + k)
 
 
 @inlined
 def bring_nearer(rows: Array, first: int, count: int) -> None:
-    """Have so many of an array's numbers, from the first on, brought into the second cache, and the last."""
+    """Have so many, and the last, brought into the second cache, to be read."""
     for k in range(0, count, LINE):
-        _to_second(rows, first + k)
-    _to_second(rows, first + count - 1)
+        _read_from_second(rows, first + k)
+    _read_from_second(rows, first + count - 1)
+
+
+@inlined
+def bring_to_write(rows: Array | Ints, first: int, count: int) -> None:
+    """Have so many brought into the first cache, to be written."""
+    for k in range(0, count, LINE):
+        _written_to_first(rows, first + k)

@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING
 
 from engine import layout as at
 from engine.constants import INITIAL_PLACEMENT_INSERT, NEEDS_STEP_UP
-from engine.kernels.ahead import bring_near
+from engine.kernels.ahead import bring_to_write
 from engine.kernels.bsp_placement import placement_insert
 from engine.kernels.bsp_tree import dispatch, find_collisions
 from engine.kernels.cell_array import ints_of, position_of
@@ -44,7 +44,7 @@ def collide(wf: Array, wi: Ints, s: Array, q: Array, out: Array) -> None:
     floats, root, is_part = _target(wi, q)
     scale = wf[floats + at.PART_SCALE] if is_part else 1.0
     enter_localspace(s, wf, floats, scale)
-    bring_near(out, 0, at.RESULT_SIZE)
+    bring_to_write(out, 0, at.RESULT_SIZE)
     if s[at.INSERT_TYPE] == INITIAL_PLACEMENT_INSERT:
         path = INITIAL_PLACEMENT_CALL
         ts = placement_insert(wf, wi, s, root)

@@ -9,7 +9,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from engine.constants import CONTACT, EPS, EPS2, FLIGHT_STEPS, FREE_ROTATE, IS_VIEWER, ON_WALKABLE
-from engine.kernels.ahead import bring_near
+from engine.kernels.ahead import bring_to_write
 from engine.kernels.compile import inlined, kernel
 from engine.kernels.fours import FOUR, move_four, put_four
 from engine.kernels.frame import interpolated, is_unit, matrix_of, normalised
@@ -98,7 +98,7 @@ def fly_through(wf: Array, wi: Ints, s: Array, q: Array, out: Array, next_out: A
     cell = int(q[Q_BEGIN_CELL])
     if not _is_in_the_air(s, q) or not is_flown_through(wf, wi, cell, q[Q_START]):
         return False
-    bring_near(next_out, 0, RESULT_SIZE)
+    bring_to_write(next_out, 0, RESULT_SIZE)
     # Told apart only once: of either kind, compiled code has its own.
     if is_upright(q):
         return _fly(wf, wi, s, q, out, cell, True)

@@ -13,7 +13,7 @@ from engine.constants import (
     TARGET_OBJECT,
     TARGET_OBJECTS,
 )
-from engine.kernels.ahead import bring_near
+from engine.kernels.ahead import bring_to_write
 from engine.kernels.compile import kernel
 from engine.kernels.insertion import answer_step_up, find_in_cell, find_obj_collisions, find_object
 from engine.kernels.objects import test_object_shape
@@ -52,5 +52,5 @@ def meet(wf: Array, wi: Ints, s: Array, q: Array, out: Array) -> None:
     prepare(s, q)
     set_check_pos(s, at.END_POS, s[at.CURR_CELL])
     set_path_fields(s, q)
-    bring_near(out, 0, at.RESULT_SIZE)
+    bring_to_write(out, 0, at.RESULT_SIZE)
     report(wf, s, out, _call(wf, wi, s, q))

@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Final
 
 from engine.body_layout import B_RECORDS, B_STATUS, BODY_SIZE
 from engine.constants import frozen
-from engine.kernels.ahead import bring_near, bring_nearer
+from engine.kernels.ahead import bring_near, bring_nearer, bring_to_write
 from engine.kernels.approach import NO_STEPS, STEPS, approach, is_large
 from engine.kernels.collisions import collide
 from engine.kernels.compile import entry, inlined, kernel
@@ -108,7 +108,7 @@ def _bring(job: int, rows: Array, i: int) -> None:
     if job in (COLLIDE, MEET):
         bring_nearer(rows, QUERY_SIZE * i, QUERY_SIZE)
     elif job != PLACE:
-        bring_nearer(rows, BODY_SIZE * i, B_RECORDS)
+        bring_to_write(rows, BODY_SIZE * i, B_RECORDS)
 
 
 @kernel

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from engine.kernels.ahead import bring_near
+from engine.kernels.ahead import bring_to_write
 from engine.kernels.compile import kernel
 from engine.kernels.flight import fly_through
 from engine.kernels.query import prepare, report
@@ -24,6 +24,6 @@ def resolve(wf: Array, wi: Ints, s: Array, q: Array, out: Array, next_out: Array
     if fly_through(wf, wi, s, q, out, next_out):
         return
     prepare(s, q)
-    bring_near(next_out, 0, RESULT_SIZE)
+    bring_to_write(next_out, 0, RESULT_SIZE)
     found = find_valid_position(wf, wi, s)
     report(wf, s, out, 1 if found else 0)
