@@ -20,7 +20,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from engine.constants import BOUND_ROUNDING, EPS, UNBOUNDED
+from engine.constants import BOUND_ROUNDING, UNBOUNDED
 from engine.kernels.bsp_node import descend, in_bounds, is_leaf, leaf_polygons
 from engine.kernels.compile import inlined, kernel
 from engine.kernels.indexing import unsigned
@@ -49,7 +49,7 @@ from engine.layout import (
 )
 
 if TYPE_CHECKING:
-    from engine.kernels.types import Array, Ints
+    from engine.kernels.types import Array, Ints, Sphere
 
 
 @inlined
@@ -139,11 +139,12 @@ def polygon_beyond(wf: Array, wi: Ints, i: int, x: float, y: float, z: float, r:
 
 
 @inlined
-def _leaf_beyond(wf: Array, wi: Ints, s: Array, leaf: int, x: float, y: float, z: float, r: float) -> bool:
+def _leaf_beyond(wf: Array, wi: Ints, s: Array, leaf: int, ball: Sphere) -> bool:
     """Say whether a ball is clear of all polygons of a leaf."""
     first, count = leaf_polygons(wi, leaf)
-    if count == 0 or not in_bounds(wf, leaf, x, y, z, r):
+    if count == 0 or not in_bounds(wf, leaf, ball):
         return True
+    x, y, z, r = ball
     s[POLYGONS_TESTED] += count
     for i in range(first, first + count):
         if not polygon_beyond(wf, wi, i, x, y, z, r):
@@ -152,7 +153,7 @@ def _leaf_beyond(wf: Array, wi: Ints, s: Array, leaf: int, x: float, y: float, z
 
 
 @kernel
-def tree_beyond(wf: Array, wi: Ints, s: Array, root: int, x: float, y: float, z: float, r: float) -> bool:
+def tree_beyond(wf: Array, wi: Ints, s: Array, root: int, ball: Sphere) -> bool:
     """Say whether no sphere inside a ball, in a tree's space, strikes or overlaps any of its polygons.
 
     The walk is that of `sphere_intersects_poly` with the ball as the sphere, so it visits every node that
@@ -165,17 +166,16 @@ def tree_beyond(wf: Array, wi: Ints, s: Array, root: int, x: float, y: float, z:
     base = wi[WORLD_STACK]
     top = base
     node = root
-    reach = r - EPS
     nodes = 0
     clear = True
     while True:
         nodes += 1
         if is_leaf(wi, node):
-            clear = _leaf_beyond(wf, wi, s, node, x, y, z, r)
+            clear = _leaf_beyond(wf, wi, s, node, ball)
             if not clear:
                 break
-        elif in_bounds(wf, node, x, y, z, r):
-            node, top = descend(wf, wi, s, node, x, y, z, reach, top)
+        elif in_bounds(wf, node, ball):
+            node, top = descend(wf, wi, s, node, ball, top)
             continue
         if top == base:
             break

@@ -19,7 +19,7 @@ from engine.kernels.path import add_offset_to_check_pos, entered_sphere, set_wal
 from engine.kernels.plane import plane_localtoglobal
 from engine.kernels.position import position_localtoglobalvec
 from engine.kernels.rounding import f32
-from engine.kernels.vector import load
+from engine.kernels.vector import load, load_four
 from engine.layout import (
     BLDG_CHECK,
     CHECK_POS,
@@ -35,7 +35,7 @@ from engine.layout import (
 )
 
 if TYPE_CHECKING:
-    from engine.kernels.types import Array, Ints, Vector
+    from engine.kernels.types import Array, Ints, Sphere, Vector
 
 
 @inlined
@@ -55,10 +55,10 @@ def find_room(wf: Array, wi: Ints, s: Array, root: int) -> int:
     """
     flag = center_check_flag(s)
     for i in range(max(int(s[NUM_SPHERE]), 1)):
-        x, y, z, r = entered_sphere(s, i)
-        if nothing_near(wf, wi, s, root, x, y, z, r, flag):
+        sphere = entered_sphere(s, i)
+        if nothing_near(wf, wi, s, root, sphere, flag):
             continue
-        if sphere_intersects_solid(wf, wi, s, root, x, y, z, r, flag):
+        if sphere_intersects_solid(wf, wi, s, root, sphere, flag):
             return COLLIDED
     return OK
 
@@ -69,9 +69,7 @@ def find_support(wf: Array, wi: Ints, s: Array, root: int) -> int:
 
     retail: BSPTREE::check_walkable 0x00539ED0, FC-4, 03 10
     """
-    x, y, z = load(s, LOCALSPACE_SPHERE)
-    ux, uy, uz = load(s, LOCALSPACE_Z)
-    supported = hits_walkable(wf, wi, s, root, x, y, z, s[LOCALSPACE_SPHERE + RADIUS], ux, uy, uz)
+    supported = hits_walkable(wf, wi, s, root, load_four(s, LOCALSPACE_SPHERE), load(s, LOCALSPACE_Z))
     return COLLIDED if supported else OK
 
 
@@ -102,26 +100,17 @@ def _step_movement(s: Array, scale: float) -> Vector:
 
 @inlined
 def _find_ground(
-    wf: Array,
-    wi: Ints,
-    s: Array,
-    root: int,
-    x: float,
-    y: float,
-    z: float,
-    r: float,
-    mx: float,
-    my: float,
-    mz: float,
-) -> tuple[int, float, float, float]:
+    wf: Array, wi: Ints, s: Array, root: int, sphere: Sphere, movement: Vector
+) -> tuple[int, Vector]:
     """Search for ground along a movement; return the polygon, or `NO_POLYGON`, and where it puts the sphere.
 
     retail: SD-4, FC-6
     """
-    ux, uy, uz = load(s, LOCALSPACE_Z)
-    if no_ground_near(wf, wi, s, root, x, y, z, r, ux, uy, uz):
-        return NO_POLYGON, x, y, z
-    return find_walkable(wf, wi, s, root, x, y, z, r, mx, my, mz, ux, uy, uz)
+    up = load(s, LOCALSPACE_Z)
+    if no_ground_near(wf, wi, s, root, sphere, up):
+        x, y, z, _ = sphere
+        return NO_POLYGON, (x, y, z)
+    return find_walkable(wf, wi, s, root, sphere, movement, up)
 
 
 @kernel
@@ -130,12 +119,11 @@ def step_sphere_down(wf: Array, wi: Ints, s: Array, root: int, scale: float) -> 
 
     retail: BSPTREE::step_sphere_down 0x0053A210, SD-1...SD-12
     """
-    mx, my, mz = _step_movement(s, scale)
-    x, y, z = load(s, LOCALSPACE_SPHERE)
-    r = s[LOCALSPACE_SPHERE + RADIUS]
-    poly, vx, vy, vz = _find_ground(wf, wi, s, root, x, y, z, r, mx, my, mz)
+    sphere = load_four(s, LOCALSPACE_SPHERE)
+    poly, (vx, vy, vz) = _find_ground(wf, wi, s, root, sphere, _step_movement(s, scale))
     if poly == NO_POLYGON:
         return OK
+    x, y, z, r = sphere
     ox, oy, oz = rotate_x_last(s, LOCALSPACE_POS, vx - x, vy - y, vz - z)
     add_offset_to_check_pos(s, f32(ox * scale), f32(oy * scale), f32(oz * scale))
     _set_found_plane(wf, s, poly, scale)
@@ -155,19 +143,15 @@ def move_scaled(s: Array, vx: float, vy: float, vz: float, scale: float) -> None
 
 
 @kernel
-def find_landing(
-    wf: Array, wi: Ints, s: Array, root: int, scale: float, mx: float, my: float, mz: float
-) -> int:
+def find_landing(wf: Array, wi: Ints, s: Array, root: int, scale: float, movement: Vector) -> int:
     """Path 4: search for a landing along the real movement.
 
     retail: FC-6, FC-7
     """
-    x, y, z = load(s, LOCALSPACE_SPHERE)
-    r = s[LOCALSPACE_SPHERE + RADIUS]
-    poly, vx, vy, vz = _find_ground(wf, wi, s, root, x, y, z, r, mx, my, mz)
+    poly, (vx, vy, vz) = _find_ground(wf, wi, s, root, load_four(s, LOCALSPACE_SPHERE), movement)
     if poly == NO_POLYGON:
         return OK
     move_scaled(s, vx, vy, vz, scale)
     _set_found_plane(wf, s, poly, scale)
-    set_walkable(s, vx, vy, vz, r, poly, scale)
+    set_walkable(s, vx, vy, vz, s[LOCALSPACE_SPHERE + RADIUS], poly, scale)
     return ADJUSTED

@@ -29,7 +29,7 @@ from engine.layout import (
 )
 
 if TYPE_CHECKING:
-    from engine.kernels.types import Array, Ints
+    from engine.kernels.types import Array, Ints, Sphere, Vector
 
 POSITIVE_SIDE: int = 0
 NEGATIVE_SIDE: int = 1
@@ -50,11 +50,12 @@ def spheres_intersect(
 
 
 @inlined
-def in_bounds(wf: Array, node: int, x: float, y: float, z: float, r: float) -> bool:
+def in_bounds(wf: Array, node: int, sphere: Sphere) -> bool:
     """Test a sphere against a node's bounding sphere.
 
     retail: BN-1
     """
+    x, y, z, r = sphere
     b = unsigned(NODE_FLOATS * node + NODE_SPHERE)
     return spheres_intersect(wf[b], wf[b + 1], wf[b + 2], wf[b + 3], x, y, z, r)
 
@@ -123,7 +124,7 @@ def leaf_polygons(wi: Ints, leaf: int) -> tuple[int, int]:
 
 
 @inlined
-def knows_slopes(wf: Array, root: int, ux: float, uy: float, uz: float, allowance: float) -> bool:
+def knows_slopes(wf: Array, root: int, up: Vector, allowance: float) -> bool:
     """Say whether leaves know which polygons are too steep for an up and an allowance.
 
     They know for every allowance of at least FLOOR_Z and every up near `GATE_UP`: along an up whose
@@ -133,8 +134,9 @@ def knows_slopes(wf: Array, root: int, ux: float, uy: float, uz: float, allowanc
 
     retail: WH-1
     """
-    up = unsigned(NODE_FLOATS * (root + GATE) + GATE_UP)
-    apart = abs(ux - wf[up]) + abs(uy - wf[up + 1]) + abs(uz - wf[up + 2])
+    ux, uy, uz = up
+    measured = unsigned(NODE_FLOATS * (root + GATE) + GATE_UP)
+    apart = abs(ux - wf[measured]) + abs(uy - wf[measured + 1]) + abs(uz - wf[measured + 2])
     return apart <= UP_SLACK and allowance >= FLOOR_Z
 
 
@@ -160,15 +162,15 @@ def leaf_planes(wf: Array, leaf: int) -> int:
 
 
 @inlined
-def descend(
-    wf: Array, wi: Ints, s: Array, node: int, x: float, y: float, z: float, reach: float, top: int
-) -> tuple[int, int]:
+def descend(wf: Array, wi: Ints, s: Array, node: int, sphere: Sphere, top: int) -> tuple[int, int]:
     """Go on to a child, the positive one first; leave the negative one on the stack if both are touched.
 
     Returns the child and the top of the stack.
 
     retail: BN-4
     """
+    x, y, z, r = sphere
+    reach = r - EPS
     dist = splitting_distance(wf, node, x, y, z)
     if dist >= reach:
         return positive(node), top

@@ -68,14 +68,14 @@ def _placement_insert(wf: Array, wi: Ints, s: Array, root: int) -> int:
     for i in range(PLACEMENT_TRIES):
         second = False
         hit, solid, poly = sphere_intersects_solid_poly(
-            wf, wi, s, root, ax, ay, az, ar, r, NOT_SOLID, poly, flag
+            wf, wi, s, root, (ax, ay, az, ar), r, NOT_SOLID, poly, flag
         )
         if hit == 0:
             if one:
                 return _finish_one(s, i, ax, ay, az)
             second = True
             hit, solid, poly = sphere_intersects_solid_poly(
-                wf, wi, s, root, bx, by, bz, br, r, solid, poly, flag
+                wf, wi, s, root, (bx, by, bz, br), r, solid, poly, flag
             )
             if hit == 0:
                 return _finish_two(s, i, ax, ay, az)

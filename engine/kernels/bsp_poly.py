@@ -30,7 +30,7 @@ from engine.kernels.vector import store
 from engine.layout import CONTACT_POINT, NO_POLYGON, NODES_VISITED, POLYGONS_TESTED, WORLD_STACK
 
 if TYPE_CHECKING:
-    from engine.kernels.types import Array, Ints
+    from engine.kernels.types import Array, Ints, Sphere, Vector
 
 
 @inlined
@@ -39,13 +39,8 @@ def _leaf_strikes(
     wi: Ints,
     s: Array,
     leaf: int,
-    x: float,
-    y: float,
-    z: float,
-    r: float,
-    mx: float,
-    my: float,
-    mz: float,
+    sphere: Sphere,
+    movement: Vector,
     poly: int,
     free: bool,
 ) -> tuple[bool, int]:
@@ -57,8 +52,10 @@ def _leaf_strikes(
     retail: SP-4...SP-6, CPolygon::pos_hits_sphere 0x005394F0, PS-1...PS-3
     """
     first, count = leaf_polygons(wi, leaf)
-    if count == 0 or not (free or in_bounds(wf, leaf, x, y, z, r)):
+    if count == 0 or not (free or in_bounds(wf, leaf, sphere)):
         return False, poly
+    x, y, z, r = sphere
+    mx, my, mz = movement
     struck = False
     tested = 0
     while tested < count and not struck:
@@ -80,13 +77,8 @@ def sphere_intersects_poly(
     wi: Ints,
     s: Array,
     root: int,
-    x: float,
-    y: float,
-    z: float,
-    r: float,
-    mx: float,
-    my: float,
-    mz: float,
+    sphere: Sphere,
+    movement: Vector,
     poly: int,
 ) -> tuple[bool, int]:
     """Find the first polygon that overlaps a sphere and faces its movement.
@@ -98,21 +90,20 @@ def sphere_intersects_poly(
     base = wi[WORLD_STACK]
     top = base
     node = root
-    reach = r - EPS
     nodes = 0
     struck = False
-    free = unbounded(wf, s, root, x, y, z, r)
+    free = unbounded(wf, s, root, sphere)
     while True:
         nodes += 1
         if is_leaf(wi, node):
             if is_wide(wi, node):
                 s[NODES_VISITED] += nodes - 1
-                return strike_on(wf, wi, s, node, top, x, y, z, r, mx, my, mz, poly)
-            struck, poly = _leaf_strikes(wf, wi, s, node, x, y, z, r, mx, my, mz, poly, free)
+                return strike_on(wf, wi, s, node, top, sphere, movement, poly)
+            struck, poly = _leaf_strikes(wf, wi, s, node, sphere, movement, poly, free)
             if struck:
                 break
-        elif free or in_bounds(wf, node, x, y, z, r):
-            node, top = descend(wf, wi, s, node, x, y, z, reach, top)
+        elif free or in_bounds(wf, node, sphere):
+            node, top = descend(wf, wi, s, node, sphere, top)
             continue
         if top == base:
             break
@@ -123,15 +114,16 @@ def sphere_intersects_poly(
 
 
 @kernel
-def _leaf_overlap(wf: Array, wi: Ints, s: Array, leaf: int, x: float, y: float, z: float, r: float) -> int:
+def _leaf_overlap(wf: Array, wi: Ints, s: Array, leaf: int, sphere: Sphere) -> int:
     """Return the first polygon of a leaf that overlaps a sphere, whatever its facing.
 
     retail: SO-7, SO-8, SQ-8
     """
-    if not in_bounds(wf, leaf, x, y, z, r):
+    if not in_bounds(wf, leaf, sphere):
         return NO_POLYGON
     if is_wide(wi, leaf):
-        return wide_leaf_overlap(wf, wi, s, leaf, x, y, z, r)
+        return wide_leaf_overlap(wf, wi, s, leaf, sphere)
+    x, y, z, r = sphere
     first, count = leaf_polygons(wi, leaf)
     found = NO_POLYGON
     tested = 0
@@ -147,7 +139,7 @@ def _leaf_overlap(wf: Array, wi: Ints, s: Array, leaf: int, x: float, y: float, 
 
 @entry
 def sphere_intersects_solid(
-    wf: Array, wi: Ints, s: Array, root: int, x: float, y: float, z: float, r: float, center_check: int
+    wf: Array, wi: Ints, s: Array, root: int, sphere: Sphere, center_check: int
 ) -> bool:
     """Say whether a sphere overlaps solid matter.
 
@@ -160,6 +152,7 @@ def sphere_intersects_solid(
     top = base
     node = root
     check = center_check
+    x, y, z, r = sphere
     reach = r - EPS
     nodes = 0
     solid = False
@@ -169,10 +162,10 @@ def sphere_intersects_solid(
             _, count = leaf_polygons(wi, node)
             if count != 0:
                 filled = check != 0 and is_solid(wi, node)
-                solid = filled or _leaf_overlap(wf, wi, s, node, x, y, z, r) != NO_POLYGON
+                solid = filled or _leaf_overlap(wf, wi, s, node, sphere) != NO_POLYGON
                 if solid:
                     break
-        elif in_bounds(wf, node, x, y, z, r):
+        elif in_bounds(wf, node, sphere):
             dist = splitting_distance(wf, node, x, y, z)
             side = side_of(dist, reach)
             if side == POSITIVE_SIDE:
@@ -202,10 +195,7 @@ def sphere_intersects_solid_poly(
     wi: Ints,
     s: Array,
     root: int,
-    x: float,
-    y: float,
-    z: float,
-    r: float,
+    sphere: Sphere,
     radius: float,
     center_solid: int,
     poly: int,
@@ -213,8 +203,8 @@ def sphere_intersects_solid_poly(
 ) -> tuple[int, int, int]:
     """Find what a placed sphere overlaps, the side of its centre first.
 
-    `radius` prunes, `r` tests. Returns the answer (retail's quirks included), center_solid and the
-    polygon. Once a polygon is known, every straddled node on the way back answers center_solid.
+    `radius` prunes, the sphere's own tests. Returns the answer (retail's quirks included), center_solid and
+    the polygon. Once a polygon is known, every straddled node on the way back answers center_solid.
 
     retail: BSPNODE::sphere_intersects_solid_poly 0x0053CD50, SQ-1...SQ-9
     """
@@ -222,6 +212,7 @@ def sphere_intersects_solid_poly(
     top = base
     node = root
     check = center_check
+    x, y, z, _ = sphere
     reach = radius - EPS
     while True:
         s[NODES_VISITED] += 1
@@ -232,11 +223,11 @@ def sphere_intersects_solid_poly(
                 if check != 0 and is_solid(wi, node):
                     center_solid = 1
                 answer = center_solid
-                found = _leaf_overlap(wf, wi, s, node, x, y, z, r)
+                found = _leaf_overlap(wf, wi, s, node, sphere)
                 if found != NO_POLYGON:
                     poly = found
                     answer = 1
-        elif in_bounds(wf, node, x, y, z, r):
+        elif in_bounds(wf, node, sphere):
             dist = splitting_distance(wf, node, x, y, z)
             side = side_of(dist, reach)
             behind = dist < 0.0 if side == BOTH_SIDES else side != POSITIVE_SIDE

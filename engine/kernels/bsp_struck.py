@@ -22,7 +22,7 @@ from engine.kernels.lattice import nothing_near
 from engine.kernels.path import entered_sphere, set_collide, set_neg_poly_hit
 from engine.kernels.position import position_localtoglobalvec
 from engine.kernels.sphere import slide_sphere
-from engine.kernels.vector import load, store
+from engine.kernels.vector import load, load_four, store
 from engine.layout import (
     LOCALSPACE_CURR_CENTER,
     LOCALSPACE_POS,
@@ -30,7 +30,6 @@ from engine.layout import (
     NO_POLYGON,
     NUM_SPHERE,
     OI_STATE,
-    RADIUS,
     REQUESTED_NORMAL,
     WALKABLE_ALLOWANCE,
 )
@@ -40,14 +39,12 @@ if TYPE_CHECKING:
 
 
 @inlined
-def _strikes(
-    wf: Array, wi: Ints, s: Array, root: int, sphere: int, mx: float, my: float, mz: float
-) -> tuple[bool, int]:
-    """Search for the polygon that one of the row's spheres strikes."""
-    x, y, z, r = entered_sphere(s, sphere)
-    if nothing_near(wf, wi, s, root, x, y, z, r, 0):
+def _strikes(wf: Array, wi: Ints, s: Array, root: int, i: int, movement: Vector) -> tuple[bool, int]:
+    """Search for the polygon that the i-th of the row's spheres strikes."""
+    sphere = entered_sphere(s, i)
+    if nothing_near(wf, wi, s, root, sphere, 0):
         return False, NO_POLYGON
-    return sphere_intersects_poly(wf, wi, s, root, x, y, z, r, mx, my, mz, NO_POLYGON)
+    return sphere_intersects_poly(wf, wi, s, root, sphere, movement, NO_POLYGON)
 
 
 @inlined
@@ -69,7 +66,7 @@ def _response_normal(wf: Array, s: Array, poly: int) -> Vector:
 
 
 @kernel
-def collide_in_contact(wf: Array, wi: Ints, s: Array, root: int, mx: float, my: float, mz: float) -> int:
+def collide_in_contact(wf: Array, wi: Ints, s: Array, root: int, movement: Vector) -> int:
     """Path 5: step up on what sphere 0 strikes, slide along what sphere 1 strikes.
 
     retail: FC-8...FC-11, BSPTREE::step_sphere_up 0x00539F20, BSPTREE::slide_sphere 0x00539E50
@@ -78,7 +75,7 @@ def collide_in_contact(wf: Array, wi: Ints, s: Array, root: int, mx: float, my: 
     first = poly = NO_POLYGON
     for i in range(spheres):
         first = poly
-        struck, poly = _strikes(wf, wi, s, root, i, mx, my, mz)
+        struck, poly = _strikes(wf, wi, s, root, i, movement)
         if struck:
             x, y, z = _response_normal(wf, s, poly)
             store(s, REQUESTED_NORMAL, x, y, z)
@@ -95,13 +92,13 @@ def collide_in_contact(wf: Array, wi: Ints, s: Array, root: int, mx: float, my: 
 
 
 @kernel
-def collide_in_air(wf: Array, wi: Ints, s: Array, root: int, mx: float, my: float, mz: float) -> int:
+def collide_in_air(wf: Array, wi: Ints, s: Array, root: int, movement: Vector) -> int:
     """Path 6a: try to land on what sphere 0 touches, stop at what sphere 1 touches.
 
     retail: FC-13, FC-14
     """
     for i in range(max(int(s[NUM_SPHERE]), 1)):
-        _, poly = _strikes(wf, wi, s, root, i, mx, my, mz)
+        _, poly = _strikes(wf, wi, s, root, i, movement)
         if poly == NO_POLYGON:
             continue
         x, y, z = _global_normal(wf, s, poly)
@@ -115,25 +112,20 @@ def collide_in_air(wf: Array, wi: Ints, s: Array, root: int, mx: float, my: floa
 
 
 @kernel
-def collide_clipped(
-    wf: Array, wi: Ints, s: Array, root: int, scale: float, mx: float, my: float, mz: float
-) -> int:
+def collide_clipped(wf: Array, wi: Ints, s: Array, root: int, scale: float, movement: Vector) -> int:
     """Path 6b: a missile stops at what sphere 0 touches; sphere 1 is never tested.
 
     retail: FC-15, BSPTREE::collide_with_pt 0x0053A090, CP-1...CP-4
     """
-    _, poly = _strikes(wf, wi, s, root, 0, mx, my, mz)
+    _, poly = _strikes(wf, wi, s, root, 0, movement)
     if poly == NO_POLYGON:
         return OK
     if not int(s[OI_STATE]) & PERFECT_CLIP:
         nx, ny, nz = _global_normal(wf, s, poly)
         set_collision_normal(s, nx, ny, nz)
         return COLLIDED
-    x, y, z = load(s, LOCALSPACE_SPHERE)
-    cx, cy, cz = load(s, LOCALSPACE_CURR_CENTER)
-    found, vx, vy, vz = adjust_to_plane(
-        wf, wi, s, root, x, y, z, s[LOCALSPACE_SPHERE + RADIUS], cx, cy, cz, poly
-    )
+    sphere, begin = load_four(s, LOCALSPACE_SPHERE), load(s, LOCALSPACE_CURR_CENTER)
+    found, (vx, vy, vz) = adjust_to_plane(wf, wi, s, root, sphere, begin, poly)
     if not found:
         return COLLIDED
     nx, ny, nz = _global_normal(wf, s, poly)

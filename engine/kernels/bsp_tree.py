@@ -96,11 +96,11 @@ def _take_path(wf: Array, wi: Ints, s: Array, root: int, scale: float, path: int
     enter_current_center(s)
     x, y, z = load(s, LOCALSPACE_SPHERE)
     cx, cy, cz = load(s, LOCALSPACE_CURR_CENTER)
-    mx, my, mz = f32(x - cx), f32(y - cy), f32(z - cz)
+    movement = f32(x - cx), f32(y - cy), f32(z - cz)
     if path == LANDING_CALL:
-        return find_landing(wf, wi, s, root, scale, mx, my, mz)
+        return find_landing(wf, wi, s, root, scale, movement)
     if path == CONTACT_CALL:
-        return collide_in_contact(wf, wi, s, root, mx, my, mz)
+        return collide_in_contact(wf, wi, s, root, movement)
     if path == CLIPPED_CALL:
-        return collide_clipped(wf, wi, s, root, scale, mx, my, mz)
-    return collide_in_air(wf, wi, s, root, mx, my, mz)
+        return collide_clipped(wf, wi, s, root, scale, movement)
+    return collide_in_air(wf, wi, s, root, movement)

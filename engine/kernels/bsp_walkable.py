@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from engine.constants import EPS, GATE_WAY
+from engine.constants import GATE_WAY
 from engine.kernels.abreast import lowest
 from engine.kernels.bsp_node import descend, in_bounds, is_leaf, is_wide, knows_slopes, leaf_polygons, slopes
 from engine.kernels.bsp_wide import find_walkable_on
@@ -24,7 +24,7 @@ from engine.layout import (
 )
 
 if TYPE_CHECKING:
-    from engine.kernels.types import Array, Ints
+    from engine.kernels.types import Array, Ints, Sphere, Vector
 
 
 @inlined
@@ -33,20 +33,13 @@ def _leaf_find_walkable(
     wi: Ints,
     s: Array,
     leaf: int,
-    x: float,
-    y: float,
-    z: float,
-    r: float,
-    mx: float,
-    my: float,
-    mz: float,
-    ux: float,
-    uy: float,
-    uz: float,
+    sphere: Sphere,
+    movement: Vector,
+    up: Vector,
     poly: int,
     free: bool,
     known: bool,
-) -> tuple[int, float, float, float]:
+) -> tuple[int, Sphere]:
     """Put the sphere on every polygon of a leaf that takes it; the last one wins.
 
     `free`: of the leaf's bounding sphere; `known`: what slopes are (`engine.kernels.bsp_node.knows_slopes`).
@@ -54,8 +47,11 @@ def _leaf_find_walkable(
     retail: FW-4, FW-5
     """
     first, count = leaf_polygons(wi, leaf)
-    if count == 0 or not (free or in_bounds(wf, leaf, x, y, z, r)):
-        return poly, x, y, z
+    if count == 0 or not (free or in_bounds(wf, leaf, sphere)):
+        return poly, sphere
+    x, y, z, r = sphere
+    mx, my, mz = movement
+    ux, uy, uz = up
     allowance = s[WALKABLE_ALLOWANCE]
     left = slopes(wi, leaf, count, known)
     while left != 0:
@@ -69,26 +65,13 @@ def _leaf_find_walkable(
                 s[WALK_INTERP] = interp
                 poly = p
     s[POLYGONS_TESTED] += count
-    return poly, x, y, z
+    return poly, (x, y, z, r)
 
 
 @entry
 def find_walkable(
-    wf: Array,
-    wi: Ints,
-    s: Array,
-    root: int,
-    x: float,
-    y: float,
-    z: float,
-    r: float,
-    mx: float,
-    my: float,
-    mz: float,
-    ux: float,
-    uy: float,
-    uz: float,
-) -> tuple[int, float, float, float]:
+    wf: Array, wi: Ints, s: Array, root: int, sphere: Sphere, movement: Vector, up: Vector
+) -> tuple[int, Vector]:
     """Move a sphere back along its movement on to the polygons that can be walked on.
 
     Returns the last polygon that moved it (`NO_POLYGON`: none did) and the centre; walk_interp in the
@@ -99,45 +82,33 @@ def find_walkable(
     base = wi[WORLD_STACK]
     top = base
     node = root
-    reach = r - EPS
     poly = NO_POLYGON
     nodes = 0
-    free = abs(mx) + abs(my) + abs(mz) < GATE_WAY and unbounded(wf, s, root, x, y, z, r)
-    known = knows_slopes(wf, root, ux, uy, uz, s[WALKABLE_ALLOWANCE])
+    mx, my, mz = movement
+    free = abs(mx) + abs(my) + abs(mz) < GATE_WAY and unbounded(wf, s, root, sphere)
+    known = knows_slopes(wf, root, up, s[WALKABLE_ALLOWANCE])
     while True:
         nodes += 1
         if is_leaf(wi, node):
             if is_wide(wi, node):
                 s[NODES_VISITED] += nodes - 1
-                return find_walkable_on(wf, wi, s, node, top, x, y, z, r, mx, my, mz, ux, uy, uz, poly)
-            poly, x, y, z = _leaf_find_walkable(
-                wf, wi, s, node, x, y, z, r, mx, my, mz, ux, uy, uz, poly, free, known
-            )
-        elif free or in_bounds(wf, node, x, y, z, r):
-            node, top = descend(wf, wi, s, node, x, y, z, reach, top)
+                return find_walkable_on(wf, wi, s, node, top, sphere, movement, up, poly)
+            poly, sphere = _leaf_find_walkable(wf, wi, s, node, sphere, movement, up, poly, free, known)
+        elif free or in_bounds(wf, node, sphere):
+            node, top = descend(wf, wi, s, node, sphere, top)
             continue
         if top == base:
             break
         top -= 1
         node = int(s[unsigned(top)])
     s[NODES_VISITED] += nodes
-    return poly, x, y, z
+    x, y, z, _ = sphere
+    return poly, (x, y, z)
 
 
 @inlined
 def _leaf_hits_walkable(
-    wf: Array,
-    wi: Ints,
-    s: Array,
-    leaf: int,
-    x: float,
-    y: float,
-    z: float,
-    r: float,
-    ux: float,
-    uy: float,
-    uz: float,
-    free: bool,
+    wf: Array, wi: Ints, s: Array, leaf: int, sphere: Sphere, up: Vector, free: bool
 ) -> bool:
     """Say whether a leaf has a polygon that supports the sphere.
 
@@ -146,8 +117,10 @@ def _leaf_hits_walkable(
     retail: BSPLEAF::hits_walkable 0x0053D670, 03 6
     """
     first, count = leaf_polygons(wi, leaf)
-    if count == 0 or not (free or in_bounds(wf, leaf, x, y, z, r)):
+    if count == 0 or not (free or in_bounds(wf, leaf, sphere)):
         return False
+    x, y, z, r = sphere
+    ux, uy, uz = up
     allowance = s[WALKABLE_ALLOWANCE]
     supported = False
     tested = 0
@@ -161,19 +134,7 @@ def _leaf_hits_walkable(
 
 
 @entry
-def hits_walkable(
-    wf: Array,
-    wi: Ints,
-    s: Array,
-    root: int,
-    x: float,
-    y: float,
-    z: float,
-    r: float,
-    ux: float,
-    uy: float,
-    uz: float,
-) -> bool:
+def hits_walkable(wf: Array, wi: Ints, s: Array, root: int, sphere: Sphere, up: Vector) -> bool:
     """Say whether any polygon supports the sphere; nothing is moved.
 
     retail: BSPNODE::hits_walkable 0x0053CBD0, 03 6
@@ -181,18 +142,17 @@ def hits_walkable(
     base = wi[WORLD_STACK]
     top = base
     node = root
-    reach = r - EPS
-    free = unbounded(wf, s, root, x, y, z, r)
+    free = unbounded(wf, s, root, sphere)
     nodes = 0
     supported = False
     while True:
         nodes += 1
         if is_leaf(wi, node):
-            supported = _leaf_hits_walkable(wf, wi, s, node, x, y, z, r, ux, uy, uz, free)
+            supported = _leaf_hits_walkable(wf, wi, s, node, sphere, up, free)
             if supported:
                 break
-        elif free or in_bounds(wf, node, x, y, z, r):
-            node, top = descend(wf, wi, s, node, x, y, z, reach, top)
+        elif free or in_bounds(wf, node, sphere):
+            node, top = descend(wf, wi, s, node, sphere, top)
             continue
         if top == base:
             break

@@ -40,23 +40,12 @@ from engine.layout import (
 )
 
 if TYPE_CHECKING:
-    from engine.kernels.types import Array, Ints
+    from engine.kernels.types import Array, Ints, Sphere, Vector
 
 
 @inlined
 def _leaf_strikes(
-    wf: Array,
-    wi: Ints,
-    s: Array,
-    leaf: int,
-    x: float,
-    y: float,
-    z: float,
-    r: float,
-    mx: float,
-    my: float,
-    mz: float,
-    poly: int,
+    wf: Array, wi: Ints, s: Array, leaf: int, sphere: Sphere, movement: Vector, poly: int
 ) -> tuple[bool, int]:
     """Find the first polygon of a leaf that overlaps and faces the movement.
 
@@ -65,8 +54,10 @@ def _leaf_strikes(
     retail: SP-4...SP-6, CPolygon::pos_hits_sphere 0x005394F0, PS-1...PS-3
     """
     first, count = leaf_polygons(wi, leaf)
-    if count == 0 or not in_bounds(wf, leaf, x, y, z, r):
+    if count == 0 or not in_bounds(wf, leaf, sphere):
         return False, poly
+    x, y, z, r = sphere
+    mx, my, mz = movement
     planes = leaf_planes(wf, leaf)
     for begin in range(0, count, ABREAST):
         near = near_planes(wf, planes + PLANE_SIZE * begin, count - begin, x, y, z, r - EPS)
@@ -87,13 +78,12 @@ def _leaf_strikes(
 
 
 @kernel
-def wide_leaf_overlap(
-    wf: Array, wi: Ints, s: Array, leaf: int, x: float, y: float, z: float, r: float
-) -> int:
+def wide_leaf_overlap(wf: Array, wi: Ints, s: Array, leaf: int, sphere: Sphere) -> int:
     """Return the first polygon of a leaf that overlaps a sphere, whatever its facing.
 
     retail: SO-7, SO-8, SQ-8
     """
+    x, y, z, r = sphere
     first, count = leaf_polygons(wi, leaf)
     planes = leaf_planes(wf, leaf)
     for begin in range(0, count, ABREAST):
@@ -112,22 +102,8 @@ def wide_leaf_overlap(
 
 @inlined
 def _leaf_find_walkable(
-    wf: Array,
-    wi: Ints,
-    s: Array,
-    leaf: int,
-    x: float,
-    y: float,
-    z: float,
-    r: float,
-    mx: float,
-    my: float,
-    mz: float,
-    ux: float,
-    uy: float,
-    uz: float,
-    poly: int,
-) -> tuple[int, float, float, float]:
+    wf: Array, wi: Ints, s: Array, leaf: int, sphere: Sphere, movement: Vector, up: Vector, poly: int
+) -> tuple[int, Sphere]:
     """Put the sphere on every polygon of a leaf that takes it; the last one wins.
 
     Wherever one takes it, those that follow are ruled out anew.
@@ -135,8 +111,11 @@ def _leaf_find_walkable(
     retail: FW-4, FW-5
     """
     first, count = leaf_polygons(wi, leaf)
-    if count == 0 or not in_bounds(wf, leaf, x, y, z, r):
-        return poly, x, y, z
+    if count == 0 or not in_bounds(wf, leaf, sphere):
+        return poly, sphere
+    x, y, z, r = sphere
+    mx, my, mz = movement
+    ux, uy, uz = up
     planes = leaf_planes(wf, leaf)
     allowance = s[WALKABLE_ALLOWANCE]
     for begin in range(0, count, ABREAST):
@@ -157,24 +136,12 @@ def _leaf_find_walkable(
                 poly = p
                 left = flat & above(i) & near_planes(wf, block, count - begin, x, y, z, r - EPS)
     s[POLYGONS_TESTED] += count
-    return poly, x, y, z
+    return poly, (x, y, z, r)
 
 
 @kernel
 def strike_on(
-    wf: Array,
-    wi: Ints,
-    s: Array,
-    node: int,
-    top: int,
-    x: float,
-    y: float,
-    z: float,
-    r: float,
-    mx: float,
-    my: float,
-    mz: float,
-    poly: int,
+    wf: Array, wi: Ints, s: Array, node: int, top: int, sphere: Sphere, movement: Vector, poly: int
 ) -> tuple[bool, int]:
     """Go on with a walk of `engine.kernels.bsp_poly.sphere_intersects_poly` from a node.
 
@@ -182,15 +149,14 @@ def strike_on(
 
     retail: BSPNODE::sphere_intersects_poly 0x0053CA30, SP-1...SP-6
     """
-    reach = r - EPS
     while True:
         s[NODES_VISITED] += 1
         if is_leaf(wi, node):
-            struck, poly = _leaf_strikes(wf, wi, s, node, x, y, z, r, mx, my, mz, poly)
+            struck, poly = _leaf_strikes(wf, wi, s, node, sphere, movement, poly)
             if struck:
                 return True, poly
-        elif in_bounds(wf, node, x, y, z, r):
-            node, top = descend(wf, wi, s, node, x, y, z, reach, top)
+        elif in_bounds(wf, node, sphere):
+            node, top = descend(wf, wi, s, node, sphere, top)
             continue
         if top == wi[WORLD_STACK]:
             return False, poly
@@ -205,33 +171,26 @@ def find_walkable_on(
     s: Array,
     node: int,
     top: int,
-    x: float,
-    y: float,
-    z: float,
-    r: float,
-    mx: float,
-    my: float,
-    mz: float,
-    ux: float,
-    uy: float,
-    uz: float,
+    sphere: Sphere,
+    movement: Vector,
+    up: Vector,
     poly: int,
-) -> tuple[int, float, float, float]:
+) -> tuple[int, Vector]:
     """Go on with a walk of `engine.kernels.bsp_walkable.find_walkable` from a node.
 
     `top`: of the stack.
 
     retail: BSPNODE::find_walkable 0x0053CC80, FW-1...FW-5
     """
-    reach = r - EPS
     while True:
         s[NODES_VISITED] += 1
         if is_leaf(wi, node):
-            poly, x, y, z = _leaf_find_walkable(wf, wi, s, node, x, y, z, r, mx, my, mz, ux, uy, uz, poly)
-        elif in_bounds(wf, node, x, y, z, r):
-            node, top = descend(wf, wi, s, node, x, y, z, reach, top)
+            poly, sphere = _leaf_find_walkable(wf, wi, s, node, sphere, movement, up, poly)
+        elif in_bounds(wf, node, sphere):
+            node, top = descend(wf, wi, s, node, sphere, top)
             continue
         if top == wi[WORLD_STACK]:
-            return poly, x, y, z
+            x, y, z, _ = sphere
+            return poly, (x, y, z)
         top -= 1
         node = int(s[unsigned(top)])

@@ -117,10 +117,10 @@ def _level_at(
 ) -> int:
     """Return the largest level near a guess of which the ball about a point is clear; 0 is no ball at all."""
     level = guess
-    while level > 0 and not tree_beyond(wf, wi, s, root, x, y, z, level * step):
+    while level > 0 and not tree_beyond(wf, wi, s, root, (x, y, z, level * step)):
         level -= 1
     if level < guess:
         return level
-    while level < CLEARANCE_MOST and tree_beyond(wf, wi, s, root, x, y, z, (level + 1) * step):
+    while level < CLEARANCE_MOST and tree_beyond(wf, wi, s, root, (x, y, z, (level + 1) * step)):
         level += 1
     return level

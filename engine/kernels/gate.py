@@ -16,11 +16,11 @@ from engine.kernels.plan import allows
 from engine.layout import GATE, GATE_RADIUS, NODE_FLOATS, PLAN_BOUNDS, SKIPPED_BOUNDS
 
 if TYPE_CHECKING:
-    from engine.kernels.types import Array
+    from engine.kernels.types import Array, Sphere
 
 
 @inlined
-def unbounded(wf: Array, s: Array, root: int, x: float, y: float, z: float, r: float) -> bool:
+def unbounded(wf: Array, s: Array, root: int, sphere: Sphere) -> bool:
     """Say whether a walk passes the root's bounding sphere, and finds the same without all others.
 
     It does if no polygon is HIT that the bounding sphere of a node above it would have kept from being
@@ -43,8 +43,9 @@ def unbounded(wf: Array, s: Array, root: int, x: float, y: float, z: float, r: f
 
     retail: BN-1, SP-1, SP-4, FW-1, FW-4
     """
+    _, _, _, r = sphere
     most = wf[unsigned(NODE_FLOATS * (root + GATE) + GATE_RADIUS)]
-    if not GATE_LEAST <= r <= most or not allows(s, PLAN_BOUNDS) or not in_bounds(wf, root, x, y, z, r):
+    if not GATE_LEAST <= r <= most or not allows(s, PLAN_BOUNDS) or not in_bounds(wf, root, sphere):
         return False
     s[SKIPPED_BOUNDS] += 1.0
     return True

@@ -41,7 +41,7 @@ from engine.layout import (
 )
 
 if TYPE_CHECKING:
-    from engine.kernels.types import Array, Ints
+    from engine.kernels.types import Array, Ints, Sphere, Vector
 
 _UNKNOWN = CROWDED << WORD_COUNT_SHIFT
 """The word of a point that is in no cube."""
@@ -106,14 +106,13 @@ def listed(word: int) -> tuple[int, int]:
 
 
 @inlined
-def _what_is_near(
-    wf: Array, wi: Ints, s: Array, root: int, x: float, y: float, z: float, r: float
-) -> tuple[int, int, int]:
+def _what_is_near(wf: Array, wi: Ints, s: Array, root: int, sphere: Sphere) -> tuple[int, int, int]:
     """Return the word of a sphere's cube, and where in the lists its polygons begin, and end.
 
     All that they leave out of the tree's polygons is BEYOND the sphere, or MISSes it. The word is that of a
     point in no cube if nothing is known of such a sphere, or the plan does not ask for it.
     """
+    x, y, z, r = sphere
     if not 0.0 <= r <= LATTICE_REACH or not allows(s, PLAN_WALKS):
         return _UNKNOWN, 0, 0
     word = _word_at(wf, wi, root, x, y, z)
@@ -134,9 +133,7 @@ def lists_of(wi: Ints, root: int) -> int:
 
 
 @inlined
-def _may_be_solid(
-    wf: Array, wi: Ints, root: int, word: int, x: float, y: float, z: float, r: float, center_check: int
-) -> bool:
+def _may_count_as_solid(wf: Array, wi: Ints, root: int, word: int, sphere: Sphere, center_check: int) -> bool:
     """Say whether a walk may come to a solid leaf whose flag counts for a sphere in the cube of a word.
 
     A leaf's flag counts, if at all, on the side of the centre of every plane that the sphere straddles. It is
@@ -147,6 +144,7 @@ def _may_be_solid(
     """
     if not word & WORD_SOLID or center_check == 0:
         return False
+    x, y, z, r = sphere
     if not r > EPS:
         return True
     leaf = leaf_of(wf, wi, root, x, y, z)
@@ -155,9 +153,7 @@ def _may_be_solid(
 
 
 @kernel
-def nothing_near(
-    wf: Array, wi: Ints, s: Array, root: int, x: float, y: float, z: float, r: float, center_check: int
-) -> bool:
+def nothing_near(wf: Array, wi: Ints, s: Array, root: int, sphere: Sphere, center_check: int) -> bool:
     """Say whether a walk with a sphere is certain to find nothing: no polygon, and no solid leaf.
 
     `center_check`: whether a solid leaf counts that holds the centre, as of `sphere_intersects_solid`.
@@ -171,9 +167,10 @@ def nothing_near(
     retail: BSPNODE::sphere_intersects_poly 0x0053CA30, SP-4...SP-6;
     BSPNODE::sphere_intersects_solid 0x0053CAF0, SO-6...SO-8
     """
-    word, first, end = _what_is_near(wf, wi, s, root, x, y, z, r)
-    if is_unknown(word) or _may_be_solid(wf, wi, root, word, x, y, z, r, center_check):
+    word, first, end = _what_is_near(wf, wi, s, root, sphere)
+    if is_unknown(word) or _may_count_as_solid(wf, wi, root, word, sphere, center_check):
         return False
+    x, y, z, r = sphere
     s[POLYGONS_TESTED] += end - first
     lists = lists_of(wi, root)
     for i in range(first, end):
@@ -185,19 +182,7 @@ def nothing_near(
 
 
 @kernel
-def no_ground_near(
-    wf: Array,
-    wi: Ints,
-    s: Array,
-    root: int,
-    x: float,
-    y: float,
-    z: float,
-    r: float,
-    ux: float,
-    uy: float,
-    uz: float,
-) -> bool:
+def no_ground_near(wf: Array, wi: Ints, s: Array, root: int, sphere: Sphere, up: Vector) -> bool:
     """Say whether `find_walkable` is certain to find nothing to put a sphere on.
 
     It moves the sphere for the first time on to a polygon that is flat enough and HIT where the sphere is at
@@ -205,9 +190,11 @@ def no_ground_near(
 
     retail: BSPNODE::find_walkable 0x0053CC80, FW-4, FW-5
     """
-    word, first, end = _what_is_near(wf, wi, s, root, x, y, z, r)
+    word, first, end = _what_is_near(wf, wi, s, root, sphere)
     if is_unknown(word):
         return False
+    x, y, z, r = sphere
+    ux, uy, uz = up
     allowance = s[WALKABLE_ALLOWANCE]
     s[POLYGONS_TESTED] += end - first
     lists = lists_of(wi, root)

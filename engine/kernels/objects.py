@@ -204,7 +204,7 @@ def _any_sphere_near(wf: Array, s: Array, root: int) -> bool:
     """
     for i in range(int(s[NUM_SPHERE])):
         x, y, z, r = entered_sphere(s, i)
-        if in_bounds(wf, root, x, y, z, r):
+        if in_bounds(wf, root, (x, y, z, r)):
             return True
     return False
 

@@ -8,7 +8,7 @@ from engine.constants import FIRST_INDOOR, PLACEMENT_INSERT, TRANSITION_INSERT
 from engine.kernels.compile import entry, inlined, kernel
 from engine.kernels.position import block_offset, position_localtolocal
 from engine.kernels.rounding import f32
-from engine.kernels.vector import copy_position, copy_vector, load, store
+from engine.kernels.vector import copy_position, copy_vector, load, load_four, store
 from engine.layout import (
     BACKUP_CELL,
     BACKUP_CHECK_POS,
@@ -54,7 +54,7 @@ from engine.layout import (
 )
 
 if TYPE_CHECKING:
-    from engine.kernels.types import Array, Matrix, Vector
+    from engine.kernels.types import Array, Matrix, Sphere, Vector
 
 
 @kernel
@@ -263,13 +263,11 @@ def enter_second_sphere(s: Array) -> None:
 
 
 @inlined
-def entered_sphere(s: Array, i: int) -> tuple[float, float, float, float]:
+def entered_sphere(s: Array, i: int) -> Sphere:
     """Return the i-th sphere, centre and radius, in the space that was entered last; put the second there."""
     if i > 0:
         enter_second_sphere(s)
-    at = LOCALSPACE_SPHERE + SPHERE_SIZE * i
-    x, y, z = load(s, at)
-    return x, y, z, s[at + RADIUS]
+    return load_four(s, LOCALSPACE_SPHERE + SPHERE_SIZE * i)
 
 
 @kernel

@@ -213,7 +213,7 @@ def _ball_is_clear(
 ) -> bool:
     """Say whether a ball of an environment cell's block touches nothing of its tree, known or to be found."""
     lx, ly, lz, far = _ball_into_cell(wf, wi, cell, x, y, z, r)
-    return known_clear(wf, wi, cell, lx, ly, lz, far) or tree_beyond(wf, wi, s, root, lx, ly, lz, far)
+    return known_clear(wf, wi, cell, lx, ly, lz, far) or tree_beyond(wf, wi, s, root, (lx, ly, lz, far))
 
 
 @kernel

@@ -23,7 +23,7 @@ from engine.layout import (
 )
 
 if TYPE_CHECKING:
-    from engine.kernels.types import Array, Ints, Order, Vector
+    from engine.kernels.types import Array, Ints, Order, Sphere, Vector
 
 AHEAD: Final = frozen(4)
 """How many spheres before its turn one is brought near: read out of turn, none lies beside the last."""
@@ -31,8 +31,14 @@ AHEAD: Final = frozen(4)
 
 @inlined
 def _vector(a: Array, i: int) -> Vector:
-    """Read one of many vectors, or centres, as float32."""
+    """Read one of many vectors as float32."""
     return f32(a[i, 0]), f32(a[i, 1]), f32(a[i, 2])
+
+
+@inlined
+def _sphere(a: Array, i: int) -> Sphere:
+    """Read one of many spheres as float32."""
+    return f32(a[i, 0]), f32(a[i, 1]), f32(a[i, 2]), f32(a[i, RADIUS])
 
 
 @inlined
@@ -73,10 +79,8 @@ def _strike_some(
         _bring(movements, later, VECTOR_SIZE)
         _bring(struck, later, 1)
         _bring(polygons, later, 1)
-        x, y, z = _vector(spheres, i)
-        mx, my, mz = _vector(movements, i)
-        r = f32(spheres[i, RADIUS])
-        struck[i], poly = sphere_intersects_poly(wf, wi, s, root, x, y, z, r, mx, my, mz, NO_POLYGON)
+        sphere, movement = _sphere(spheres, i), _vector(movements, i)
+        struck[i], poly = sphere_intersects_poly(wf, wi, s, root, sphere, movement, NO_POLYGON)
         polygons[i] = _id(wf, poly)
 
 
@@ -110,14 +114,11 @@ def _step_some_down(
         _bring(allowances, later, 1)
         _bring(interps, later, 1)
         _bring(polygons, later, 1)
-        x, y, z = _vector(spheres, i)
-        r = f32(spheres[i, RADIUS])
-        mx, my, mz = _vector(movements, i)
-        ux, uy, uz = _vector(ups, i)
         s[WALKABLE_ALLOWANCE] = f32(allowances[i])
         s[WALK_INTERP] = f32(interps[i])
-        poly, x, y, z = find_walkable(wf, wi, s, root, x, y, z, r, mx, my, mz, ux, uy, uz)
-        centers[i, 0], centers[i, 1], centers[i, 2] = x, y, z
+        sphere, movement, up = _sphere(spheres, i), _vector(movements, i), _vector(ups, i)
+        poly, center = find_walkable(wf, wi, s, root, sphere, movement, up)
+        centers[i, 0], centers[i, 1], centers[i, 2] = center
         interps[i] = s[WALK_INTERP]
         polygons[i] = _id(wf, poly)
 

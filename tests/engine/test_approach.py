@@ -101,8 +101,8 @@ def test_a_call_looks_up_where_it_was_expected_to(building: BenchScene, calls: R
     asked: list[tuple[float, ...]] = []
     world = building.world
 
-    def note(_wf: Any, _wi: Any, _s: Any, _root: int, *ball: float) -> bool:
-        asked.append(ball[:3])
+    def note(_wf: Any, _wi: Any, _s: Any, _root: int, sphere: tuple[float, ...], _: int) -> bool:
+        asked.append(sphere[:3])
         return False
 
     watched: Any = Interpreter({nothing_near: note}).function(collide)

@@ -55,12 +55,12 @@ def walks(world: World, rng: np.random.Generator) -> list[tuple[Any, tuple[Any, 
     """Return for one sphere each walk with its arguments behind the row."""
     root = world.tree_of(0)
     center = rng.uniform(-1.2, 1.2, 3).astype(np.float32).astype(float).tolist()
-    way = rng.uniform(-0.5, 0.5, 3).astype(np.float32).astype(float).tolist()
-    radius = float(np.float32(rng.uniform(0.05, 0.5)))
+    way = tuple(rng.uniform(-0.5, 0.5, 3).astype(np.float32).astype(float).tolist())
+    sphere = (*center, float(np.float32(rng.uniform(0.05, 0.5))))
     return [
-        (sphere_intersects_poly, (root, *center, radius, *way, at.NO_POLYGON)),
-        (sphere_intersects_solid, (root, *center, radius, 1)),
-        (find_walkable, (root, *center, radius, *way, 0.0, 0.0, 1.0)),
+        (sphere_intersects_poly, (root, sphere, way, at.NO_POLYGON)),
+        (sphere_intersects_solid, (root, sphere, 1)),
+        (find_walkable, (root, sphere, way, (0.0, 0.0, 1.0))),
     ]
 
 
@@ -70,7 +70,8 @@ def answered(walk: Any, world: World, arguments: tuple[Any, ...]) -> tuple[Any, 
     row[at.WALKABLE_ALLOWANCE], row[at.WALK_INTERP] = 0.25, 1.0
     with np.errstate(all="ignore"):
         answer = walk(world.floats, world.ints, row, *arguments)
-    return np.asarray(answer, dtype=np.float64).tobytes(), row[: at.STATE_SIZE].tobytes()
+    parts = answer if isinstance(answer, tuple) else (answer,)
+    return np.hstack(parts).astype(np.float64).tobytes(), row[: at.STATE_SIZE].tobytes()
 
 
 def test_a_wide_leaf_changes_nothing() -> None:

@@ -83,7 +83,7 @@ def test_what_is_known_to_be_clear_is(center: tuple[float, float, float], radius
     """A ball that the grid calls clear is clear for the walk through the tree, too."""
     floats, ints = CORNER.floats, CORNER.ints
     if asked(known_clear, floats, ints, 0, *center, radius):
-        assert asked(tree_beyond, floats, ints, CORNER.new_row(), CORNER.tree_of(0), *center, radius)
+        assert asked(tree_beyond, floats, ints, CORNER.new_row(), CORNER.tree_of(0), (*center, radius))
 
 
 @pytest.mark.parametrize(

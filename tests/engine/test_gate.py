@@ -32,22 +32,22 @@ AS_WRITTEN = Interpreter({})
 BOUNDS = Plan(Stage.BOUNDS)
 SPHERES = 2_000
 WALKS = [
-    (sphere_intersects_poly, (0.0, 0.0, -1.0, at.NO_POLYGON)),
-    (find_walkable, (0.0, 0.0, -1.0, 0.0, 0.0, 1.0)),
-    (hits_walkable, (0.0, 0.0, 1.0)),
+    (sphere_intersects_poly, ((0.0, 0.0, -1.0), at.NO_POLYGON)),
+    (find_walkable, ((0.0, 0.0, -1.0), (0.0, 0.0, 1.0))),
+    (hits_walkable, ((0.0, 0.0, 1.0),)),
 ]
 """The walks that need no bounding spheres, with what else they take."""
 NAMES = ["strike", "step down", "support"]
 
 
 def taken(
-    walk: Callable[..., object], *rest: float, x: float = 0.0, r: float = R, plan: Plan = BOUNDS
+    walk: Callable[..., object], *rest: object, x: float = 0.0, r: float = R, plan: Plan = BOUNDS
 ) -> int:
     """Return how often a walk above the floor goes without bounding spheres."""
     world = world_of(floor_and_wall())
     row = world.new_row(plan=plan)
     row[at.WALK_INTERP], row[at.WALKABLE_ALLOWANCE] = 1.0, FLOOR_Z
-    walk(world.floats, world.ints, row, world.tree_of(0), x, 0.0, 0.25, r, *rest)
+    walk(world.floats, world.ints, row, world.tree_of(0), (x, 0.0, 0.25, r), *rest)
     return int(row[at.SKIPPED_BOUNDS])
 
 
@@ -57,20 +57,20 @@ def taken(
     [(R, 1), (GATE_LEAST, 1), (GATE_MOST, 1), (0.9 * GATE_LEAST, 0), (1.1 * GATE_MOST, 0), (math.nan, 0)],
 )
 def test_spheres_of_a_mover_s_size(
-    walk: Callable[..., object], rest: tuple[float, ...], r: float, times: int
+    walk: Callable[..., object], rest: tuple[object, ...], r: float, times: int
 ) -> None:
     """Neither a speck, of which EPS is a part that counts, nor a giant, of which roundings are."""
     assert taken(walk, *rest, r=r) == times
 
 
 @pytest.mark.parametrize(("walk", "rest"), WALKS, ids=NAMES)
-def test_the_root_s_sphere_is_always_tested(walk: Callable[..., object], rest: tuple[float, ...]) -> None:
+def test_the_root_s_sphere_is_always_tested(walk: Callable[..., object], rest: tuple[object, ...]) -> None:
     """It stops what is elsewhere, and a centre that is nowhere."""
     assert [taken(walk, *rest, x=x) for x in (20.0, math.inf, math.nan)] == [0, 0, 0]
 
 
 @pytest.mark.parametrize(("walk", "rest"), WALKS, ids=NAMES)
-def test_all_are_tested_if_the_plan_says_so(walk: Callable[..., object], rest: tuple[float, ...]) -> None:
+def test_all_are_tested_if_the_plan_says_so(walk: Callable[..., object], rest: tuple[object, ...]) -> None:
     """Retail's own way, test by test."""
     assert taken(walk, *rest, plan=Plan.none()) == 0
 
@@ -78,9 +78,9 @@ def test_all_are_tested_if_the_plan_says_so(walk: Callable[..., object], rest: t
 def test_a_movement_beyond_all_measure_needs_them() -> None:
     """Back along it a sphere may come to where float32 ends, which is near everything."""
     up = (0.0, 0.0, 1.0)
-    assert taken(find_walkable, 0.0, 0.0, -0.5 * GATE_WAY, *up) == 1
-    assert taken(find_walkable, 0.0, 0.0, -2.0 * GATE_WAY, *up) == 0
-    assert taken(find_walkable, math.nan, 0.0, 0.0, *up) == 0
+    assert taken(find_walkable, (0.0, 0.0, -0.5 * GATE_WAY), up) == 1
+    assert taken(find_walkable, (0.0, 0.0, -2.0 * GATE_WAY), up) == 0
+    assert taken(find_walkable, (math.nan, 0.0, 0.0), up) == 0
 
 
 def test_solid_matter_needs_them() -> None:
@@ -157,5 +157,5 @@ def test_what_is_hit_passes_the_bounding_sphere(
     assume(gate_radius(shape) == GATE_MOST)
     x, y, z = np.float32(points[k] + (r - EPS + beyond * EPS) / lengths[k] * ways[k]).astype(np.float64)
     code = polygon_hits_sphere_slow_but_sure(shape.polygon_floats, 0, x, y, z, r)[0]
-    within = AS_WRITTEN.function(in_bounds)(shape.node_floats.ravel(), 0, x, y, z, r)
+    within = AS_WRITTEN.function(in_bounds)(shape.node_floats.ravel(), 0, (x, y, z, r))
     assert code != HIT or within

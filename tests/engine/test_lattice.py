@@ -42,16 +42,16 @@ FLOOR = world_of(floor_and_wall())
 
 def is_clear(world: World, x: float, y: float, z: float, r: float, center_check: int = 0) -> bool:
     """Say whether the lattice of a world's first cell knows that nothing is near."""
-    numbers = (np.float64(value) for value in (x, y, z, r))
+    sphere = tuple(np.float64(value) for value in (x, y, z, r))
     row = world.new_row(plan=WALKS)
-    clear = bool(LOOK_UP(world.floats, world.ints, row, world.tree_of(0), *numbers, center_check))
+    clear = bool(LOOK_UP(world.floats, world.ints, row, world.tree_of(0), sphere, center_check))
     assert row[at.SKIPPED_WALKS] == clear
     return clear
 
 
 def has_no_ground(world: World, sphere: tuple[float, ...], up: tuple[float, ...], allowance: float) -> bool:
     """Say whether the lattice of a world's first cell knows that there is nothing to stand on."""
-    numbers = (np.float64(value) for value in (*sphere, *up))
+    numbers = (tuple(np.float64(value) for value in values) for values in (sphere, up))
     row = world.new_row(plan=WALKS)
     row[at.WALKABLE_ALLOWANCE] = allowance
     none = bool(NO_GROUND(world.floats, world.ints, row, world.tree_of(0), *numbers))
@@ -169,10 +169,9 @@ def test_no_ground_is_missed(where: tuple[float, float, float], r: float, allowa
     if has_no_ground(ROOM, (*center, r), (0.0, 0.0, 1.0), allowance):
         row = ROOM.new_row()
         row[at.WALKABLE_ALLOWANCE], row[at.WALK_INTERP] = allowance, 1.0
-        sphere = *center, r
-        way_and_up = 0.0, 0.0, -0.5, 0.0, 0.0, 1.0
-        found = find_walkable(ROOM.floats, ROOM.ints, row, ROOM.tree_of(0), *sphere, *way_and_up)
-        assert found == (at.NO_POLYGON, *center)
+        way, up = (0.0, 0.0, -0.5), (0.0, 0.0, 1.0)
+        found = find_walkable(ROOM.floats, ROOM.ints, row, ROOM.tree_of(0), (*center, r), way, up)
+        assert found == (at.NO_POLYGON, tuple(center))
         assert row[at.WALK_INTERP] == 1.0
 
 
@@ -184,8 +183,8 @@ def test_a_centre_in_solid_matter_that_touches_no_polygon() -> None:
     world = world_of(Shape(corners, [range(4), (0, 1, 4)], tree))
     row, root = world.new_row(), world.tree_of(0)
     below = 0.0, 2.5, -2.0, R
-    assert sphere_intersects_solid(world.floats, world.ints, row, root, *below, 1)
-    assert not sphere_intersects_solid(world.floats, world.ints, row, root, *below, 0)
+    assert sphere_intersects_solid(world.floats, world.ints, row, root, below, 1)
+    assert not sphere_intersects_solid(world.floats, world.ints, row, root, below, 0)
     assert [is_clear(world, *below, flag) for flag in (0, 1)] == [True, False]
 
 
@@ -215,7 +214,7 @@ def test_solid_matter_beside_a_centre(center: tuple[float, float, float], r: flo
     assert any(words_of(world) & at.WORD_SOLID)
     assert is_clear(world, *center, r, 1) == known
     solid = sphere_intersects_solid(
-        world.floats, world.ints, world.new_row(), world.tree_of(0), *center, r, 1
+        world.floats, world.ints, world.new_row(), world.tree_of(0), (*center, r), 1
     )
     assert not (known and solid)
 
@@ -240,7 +239,7 @@ def test_nothing_is_missed(where: tuple[float, float, float], r: float) -> None:
     if is_clear(ROOM, *center, r, 1):
         row, root = ROOM.new_row(), ROOM.tree_of(0)
         assert list(hit(ROOM, *center, r)) == []
-        assert not sphere_intersects_solid(ROOM.floats, ROOM.ints, row, root, *center, r, 1)
+        assert not sphere_intersects_solid(ROOM.floats, ROOM.ints, row, root, (*center, r), 1)
 
 
 def test_most_spheres_that_touch_nothing_are_known() -> None:
@@ -250,8 +249,8 @@ def test_most_spheres_that_touch_nothing_are_known() -> None:
     low, high = ROOM.shapes[0].bounds.reshape(2, 3)
     free = known = 0
     for center in rng.uniform(low, high, size=(200, 3)):
-        walk = ROOM.floats, ROOM.ints, row, ROOM.tree_of(0), *center, R
-        struck, poly = sphere_intersects_poly(*walk, 0.0, 0.0, 0.0, at.NO_POLYGON)
+        walk = ROOM.floats, ROOM.ints, row, ROOM.tree_of(0), (*center, R)
+        struck, poly = sphere_intersects_poly(*walk, (0.0, 0.0, 0.0), at.NO_POLYGON)
         if not struck and poly == at.NO_POLYGON:
             free += 1
             known += is_clear(ROOM, *center, R)

@@ -44,7 +44,7 @@ def measured(world: World, root: int) -> list[float]:
 def asked(world: World, up: tuple[float, ...], allowance: float) -> int:
     """Return the polygons that the first leaf of `floor_and_wall` has looked at for a question."""
     root = world.tree_of(0)
-    known = ASKED.function(knows_slopes)(world.floats, root, *up, allowance)
+    known = ASKED.function(knows_slopes)(world.floats, root, up, allowance)
     mask: int = ASKED.function(slopes)(world.ints, root + 1, 2, known)
     return mask
 
@@ -142,10 +142,10 @@ def answered(
     """Return the answer of a walk, and the state that it leaves."""
     row = world.new_row()
     row[at.WALKABLE_ALLOWANCE], row[at.WALK_INTERP] = allowance, 1.0
-    arguments = (*ball.tolist(), *way.tolist(), *up.tolist())
+    arguments = (tuple(values.tolist()) for values in (ball, way, up))
     with np.errstate(all="ignore"):
-        answer = walk(world.floats, world.ints, row, world.tree_of(0), *arguments)
-    return np.asarray(answer, dtype=np.float64).tobytes(), row[: at.STATE_SIZE].tobytes()
+        poly, center = walk(world.floats, world.ints, row, world.tree_of(0), *arguments)
+    return np.array([poly, *center], dtype=np.float64).tobytes(), row[: at.STATE_SIZE].tobytes()
 
 
 def test_knowing_slopes_changes_nothing() -> None:

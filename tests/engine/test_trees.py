@@ -29,7 +29,7 @@ def test_striking_equals_single_walks() -> None:
     for i in range(4):
         row = world.new_row()
         hit, poly = sphere_intersects_poly(
-            world.floats, world.ints, row, world.tree_of(0), *SPHERES[i], *WAYS[i], NO_POLYGON
+            world.floats, world.ints, row, world.tree_of(0), tuple(SPHERES[i]), tuple(WAYS[i]), NO_POLYGON
         )
         assert (int(hit), _id(world, poly)) == (struck[i], polygons[i])
 
@@ -45,10 +45,9 @@ def test_stepping_down_equals_single_walks() -> None:
     for i in range(4):
         row = world.new_row()
         row[WALKABLE_ALLOWANCE], row[WALK_INTERP] = allowances[i], interps[i]
-        poly, *center = find_walkable(
-            world.floats, world.ints, row, world.tree_of(0), *SPHERES[i], *WAYS[i], *UPS[i]
-        )
-        assert (center, row[WALK_INTERP], _id(world, poly)) == (centers[i].tolist(), left[i], polygons[i])
+        asked = (tuple(given[i]) for given in (SPHERES, WAYS, UPS))
+        poly, (x, y, z) = find_walkable(world.floats, world.ints, row, world.tree_of(0), *asked)
+        assert ([x, y, z], row[WALK_INTERP], _id(world, poly)) == (centers[i].tolist(), left[i], polygons[i])
 
 
 def _id(world: World, poly: int) -> int:

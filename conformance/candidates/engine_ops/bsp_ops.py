@@ -54,7 +54,7 @@ def _sphere_intersects_poly(query: Query) -> Fields:
     contact = slice(at.CONTACT_POINT, at.CONTACT_POINT + at.VECTOR_SIZE)
     tree.row[contact] = _UNWRITTEN
     struck, polygon = sphere_intersects_poly(
-        *tree.arguments, *ball(query.inputs["sphere"]), *vector(query.inputs["movement"]), at.NO_POLYGON
+        *tree.arguments, ball(query.inputs["sphere"]), vector(query.inputs["movement"]), at.NO_POLYGON
     )
     point = floats(tree.row[contact])
     return {
@@ -66,16 +66,15 @@ def _sphere_intersects_poly(query: Query) -> Fields:
 
 def _sphere_intersects_solid(query: Query) -> Fields:
     center_check = int(query.inputs["center_check"])
-    r = sphere_intersects_solid(*_Tree(query).arguments, *ball(query.inputs["sphere"]), center_check)
+    r = sphere_intersects_solid(*_Tree(query).arguments, ball(query.inputs["sphere"]), center_check)
     return {"r": int(r)}
 
 
 def _hits_walkable(query: Query) -> Fields:
     tree = _Tree(query)
     tree.row[at.WALKABLE_ALLOWANCE] = query.inputs["walkable_allowance"]
-    return {
-        "r": int(hits_walkable(*tree.arguments, *ball(query.inputs["sphere"]), *vector(query.inputs["up"])))
-    }
+    r = hits_walkable(*tree.arguments, ball(query.inputs["sphere"]), vector(query.inputs["up"]))
+    return {"r": int(r)}
 
 
 def _find_walkable(query: Query) -> Fields:
@@ -83,13 +82,13 @@ def _find_walkable(query: Query) -> Fields:
     tree = _Tree(query)
     tree.row[at.WALKABLE_ALLOWANCE] = inputs["walkable_allowance"]
     tree.row[at.WALK_INTERP] = inputs["walk_interp"]
-    polygon, *center = find_walkable(
-        *tree.arguments, *ball(inputs["sphere"]), *vector(inputs["movement"]), *vector(inputs["up"])
+    polygon, center = find_walkable(
+        *tree.arguments, ball(inputs["sphere"]), vector(inputs["movement"]), vector(inputs["up"])
     )
     return {
         "changed": int(polygon != at.NO_POLYGON),
         "poly": tree.polygon_id(polygon),
-        "center": center,
+        "center": list(center),
         "walk_interp": float(tree.row[at.WALK_INTERP]),
     }
 
@@ -99,7 +98,7 @@ def _sphere_intersects_solid_poly(query: Query) -> Fields:
     tree = _Tree(query)
     r, center_solid, polygon = sphere_intersects_solid_poly(
         *tree.arguments,
-        *ball(inputs["sphere"]),
+        ball(inputs["sphere"]),
         float(inputs["radius"]),
         int(inputs["center_solid"]),
         at.NO_POLYGON,
@@ -112,10 +111,8 @@ def _adjust_to_plane(query: Query) -> Fields:
     inputs = query.inputs
     tree = _Tree(query)
     polygon = tree.world.polygon(0, int(inputs["poly"]))
-    found, *center = adjust_to_plane(
-        *tree.arguments, *ball(inputs["sphere"]), *vector(inputs["curr"]), polygon
-    )
-    return {"r": int(found), "center": center}
+    found, center = adjust_to_plane(*tree.arguments, ball(inputs["sphere"]), vector(inputs["curr"]), polygon)
+    return {"r": int(found), "center": list(center)}
 
 
 def _cell_planes(query: Query) -> tuple[Array, int, int]:
