@@ -54,19 +54,17 @@ def _leaf_strikes(
     first, count = leaf_polygons(wi, leaf)
     if count == 0 or not (free or in_bounds(wf, leaf, sphere)):
         return False, poly
-    x, y, z, r = sphere
-    mx, my, mz = movement
     struck = False
     tested = 0
     while tested < count and not struck:
         p = wi[unsigned(first + tested)]
         tested += 1
-        code, qx, qy, qz = polygon_hits_sphere_slow_but_sure(wf, p, x, y, z, r)
+        code, qx, qy, qz = polygon_hits_sphere_slow_but_sure(wf, p, sphere)
         if code >= MISS:
             store(s, CONTACT_POINT, qx, qy, qz)
         if code == HIT:
             poly = p
-            struck = not polygon_moved_along(wf, p, mx, my, mz)
+            struck = not polygon_moved_along(wf, p, movement)
     s[POLYGONS_TESTED] += tested
     return struck, poly
 
@@ -123,14 +121,13 @@ def _leaf_overlap(wf: Array, wi: Ints, s: Array, leaf: int, sphere: Sphere) -> i
         return NO_POLYGON
     if is_wide(wi, leaf):
         return wide_leaf_overlap(wf, wi, s, leaf, sphere)
-    x, y, z, r = sphere
     first, count = leaf_polygons(wi, leaf)
     found = NO_POLYGON
     tested = 0
     while tested < count and found == NO_POLYGON:
         p = wi[unsigned(first + tested)]
         tested += 1
-        code, _, _, _ = polygon_hits_sphere_slow_but_sure(wf, p, x, y, z, r)
+        code, _, _, _ = polygon_hits_sphere_slow_but_sure(wf, p, sphere)
         if code == HIT:
             found = p
     s[POLYGONS_TESTED] += tested

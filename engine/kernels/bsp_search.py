@@ -39,12 +39,11 @@ def adjust_to_plane(
     """
     x, y, z, r = sphere
     cx, cy, cz = begin
-    mx, my, mz = f32(x - cx), f32(y - cy), f32(z - cz)
-    movement = mx, my, mz
+    movement = f32(x - cx), f32(y - cy), f32(z - cz)
     lo, hi = 0.0, 1.0
     n = 0
     while True:
-        t = polygon_adjust_sphere_to_poly(wf, poly, r, cx, cy, cz, mx, my, mz)
+        t = polygon_adjust_sphere_to_poly(wf, poly, r, begin, movement)
         if t == 1.0:
             break
         sphere = _place(t, movement, begin, r)

@@ -49,23 +49,18 @@ def _leaf_find_walkable(
     first, count = leaf_polygons(wi, leaf)
     if count == 0 or not (free or in_bounds(wf, leaf, sphere)):
         return poly, sphere
-    x, y, z, r = sphere
-    mx, my, mz = movement
-    ux, uy, uz = up
     allowance = s[WALKABLE_ALLOWANCE]
     left = slopes(wi, leaf, count, known)
     while left != 0:
         p = wi[unsigned(first + lowest(left))]
         left &= left - 1
-        if polygon_walkable_hits_sphere(wf, p, x, y, z, r, ux, uy, uz, allowance):
-            moved, x, y, z, interp = polygon_adjust_sphere_to_plane(
-                wf, p, r, x, y, z, mx, my, mz, s[WALK_INTERP]
-            )
+        if polygon_walkable_hits_sphere(wf, p, sphere, up, allowance):
+            moved, sphere, interp = polygon_adjust_sphere_to_plane(wf, p, sphere, movement, s[WALK_INTERP])
             if moved:
                 s[WALK_INTERP] = interp
                 poly = p
     s[POLYGONS_TESTED] += count
-    return poly, (x, y, z, r)
+    return poly, sphere
 
 
 @entry
@@ -119,16 +114,14 @@ def _leaf_hits_walkable(
     first, count = leaf_polygons(wi, leaf)
     if count == 0 or not (free or in_bounds(wf, leaf, sphere)):
         return False
-    x, y, z, r = sphere
-    ux, uy, uz = up
     allowance = s[WALKABLE_ALLOWANCE]
     supported = False
     tested = 0
     while tested < count and not supported:
         p = wi[unsigned(first + tested)]
         tested += 1
-        if polygon_walkable_hits_sphere(wf, p, x, y, z, r, ux, uy, uz, allowance):
-            supported = polygon_check_small_walkable(wf, p, x, y, z, r, ux, uy, uz)
+        if polygon_walkable_hits_sphere(wf, p, sphere, up, allowance):
+            supported = polygon_check_small_walkable(wf, p, sphere, up)
     s[POLYGONS_TESTED] += tested
     return supported
 

@@ -57,7 +57,6 @@ def _leaf_strikes(
     if count == 0 or not in_bounds(wf, leaf, sphere):
         return False, poly
     x, y, z, r = sphere
-    mx, my, mz = movement
     planes = leaf_planes(wf, leaf)
     for begin in range(0, count, ABREAST):
         near = near_planes(wf, planes + PLANE_SIZE * begin, count - begin, x, y, z, r - EPS)
@@ -65,12 +64,12 @@ def _leaf_strikes(
             i = begin + lowest(near)
             near &= near - 1
             p = wi[unsigned(first + i)]
-            code, qx, qy, qz = polygon_hits_sphere_slow_but_sure(wf, p, x, y, z, r)
+            code, qx, qy, qz = polygon_hits_sphere_slow_but_sure(wf, p, sphere)
             if code >= MISS:
                 store(s, CONTACT_POINT, qx, qy, qz)
             if code == HIT:
                 poly = p
-                if not polygon_moved_along(wf, p, mx, my, mz):
+                if not polygon_moved_along(wf, p, movement):
                     s[POLYGONS_TESTED] += i + 1
                     return True, poly
     s[POLYGONS_TESTED] += count
@@ -92,7 +91,7 @@ def wide_leaf_overlap(wf: Array, wi: Ints, s: Array, leaf: int, sphere: Sphere) 
             i = begin + lowest(near)
             near &= near - 1
             p = wi[unsigned(first + i)]
-            code, _, _, _ = polygon_hits_sphere_slow_but_sure(wf, p, x, y, z, r)
+            code, _, _, _ = polygon_hits_sphere_slow_but_sure(wf, p, sphere)
             if code == HIT:
                 s[POLYGONS_TESTED] += i + 1
                 return p
@@ -113,30 +112,28 @@ def _leaf_find_walkable(
     first, count = leaf_polygons(wi, leaf)
     if count == 0 or not in_bounds(wf, leaf, sphere):
         return poly, sphere
-    x, y, z, r = sphere
-    mx, my, mz = movement
     ux, uy, uz = up
     planes = leaf_planes(wf, leaf)
     allowance = s[WALKABLE_ALLOWANCE]
     for begin in range(0, count, ABREAST):
         block = planes + PLANE_SIZE * begin
         flat = flat_planes(wf, block, ux, uy, uz, allowance)
+        x, y, z, r = sphere
         left = flat & near_planes(wf, block, count - begin, x, y, z, r - EPS)
         while left != 0:
             i = lowest(left)
             left &= left - 1
             p = wi[unsigned(first + begin + i)]
-            if not polygon_walkable_hits_sphere(wf, p, x, y, z, r, ux, uy, uz, allowance):
+            if not polygon_walkable_hits_sphere(wf, p, sphere, up, allowance):
                 continue
-            moved, x, y, z, interp = polygon_adjust_sphere_to_plane(
-                wf, p, r, x, y, z, mx, my, mz, s[WALK_INTERP]
-            )
+            moved, sphere, interp = polygon_adjust_sphere_to_plane(wf, p, sphere, movement, s[WALK_INTERP])
             if moved:
                 s[WALK_INTERP] = interp
                 poly = p
+                x, y, z, _ = sphere
                 left = flat & above(i) & near_planes(wf, block, count - begin, x, y, z, r - EPS)
     s[POLYGONS_TESTED] += count
-    return poly, (x, y, z, r)
+    return poly, sphere
 
 
 @kernel

@@ -170,11 +170,10 @@ def nothing_near(wf: Array, wi: Ints, s: Array, root: int, sphere: Sphere, cente
     word, first, end = _what_is_near(wf, wi, s, root, sphere)
     if is_unknown(word) or _may_count_as_solid(wf, wi, root, word, sphere, center_check):
         return False
-    x, y, z, r = sphere
     s[POLYGONS_TESTED] += end - first
     lists = lists_of(wi, root)
     for i in range(first, end):
-        code, _, _, _ = polygon_hits_sphere_slow_but_sure(wf, half(wi, lists, i), x, y, z, r)
+        code, _, _, _ = polygon_hits_sphere_slow_but_sure(wf, half(wi, lists, i), sphere)
         if code == HIT:
             return False
     s[SKIPPED_WALKS] += 1.0
@@ -193,13 +192,11 @@ def no_ground_near(wf: Array, wi: Ints, s: Array, root: int, sphere: Sphere, up:
     word, first, end = _what_is_near(wf, wi, s, root, sphere)
     if is_unknown(word):
         return False
-    x, y, z, r = sphere
-    ux, uy, uz = up
     allowance = s[WALKABLE_ALLOWANCE]
     s[POLYGONS_TESTED] += end - first
     lists = lists_of(wi, root)
     for i in range(first, end):
-        if polygon_walkable_hits_sphere(wf, half(wi, lists, i), x, y, z, r, ux, uy, uz, allowance):
+        if polygon_walkable_hits_sphere(wf, half(wi, lists, i), sphere, up, allowance):
             return False
     s[SKIPPED_WALKS] += 1.0
     return True

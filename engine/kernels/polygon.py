@@ -20,7 +20,7 @@ from engine.kernels.vector import dot_x
 from engine.layout import POLYGON_CONVEX, POLYGON_COUNT, POLYGON_SIDES, SIDES, SIDES_SIZE
 
 if TYPE_CHECKING:
-    from engine.kernels.types import Array, Vector
+    from engine.kernels.types import Array, Sphere, Vector
 
 
 @inlined
@@ -144,13 +144,12 @@ def _far_outside(x: float, y: float, z: float, r: float, rsq: float) -> float:
 
 
 @entry
-def polygon_hits_sphere(
-    wf: Array, p: int, x: float, y: float, z: float, r: float
-) -> tuple[int, float, float, float]:
+def polygon_hits_sphere(wf: Array, p: int, sphere: Sphere) -> tuple[int, float, float, float]:
     """Test a sphere, fast version: HIT, MISS or BEYOND the plane, and the projected centre.
 
     retail: CPolygon::polygon_hits_sphere 0x005387C0, PH-1...PH-7
     """
+    x, y, z, r = sphere
     dist = plane_distance(wf, p, x, y, z)
     rad = r - EPS
     if rad < abs(dist):
@@ -161,13 +160,12 @@ def polygon_hits_sphere(
 
 
 @inlined_entry
-def polygon_hits_sphere_slow_but_sure(
-    wf: Array, p: int, x: float, y: float, z: float, r: float
-) -> tuple[int, float, float, float]:
+def polygon_hits_sphere_slow_but_sure(wf: Array, p: int, sphere: Sphere) -> tuple[int, float, float, float]:
     """Test a sphere: HIT, MISS or BEYOND the plane, and the projected centre.
 
     retail: CPolygon::polygon_hits_sphere_slow_but_sure 0x00538A10, SS-1...SS-6
     """
+    x, y, z, r = sphere
     dist = plane_distance(wf, p, x, y, z)
     rad = r - EPS
     if rad < abs(dist):
@@ -183,32 +181,23 @@ def polygon_hits_sphere_slow_but_sure(
 
 
 @inlined_entry
-def polygon_moved_along(wf: Array, p: int, mx: float, my: float, mz: float) -> bool:
+def polygon_moved_along(wf: Array, p: int, movement: Vector) -> bool:
     """Say whether a movement does not go against the normal.
 
     retail: PS-3
     """
-    return along_normal(wf, p, mx, my, mz) >= 0.0
+    x, y, z = movement
+    return along_normal(wf, p, x, y, z) >= 0.0
 
 
 @inlined_entry
-def polygon_walkable_hits_sphere(
-    wf: Array,
-    p: int,
-    x: float,
-    y: float,
-    z: float,
-    r: float,
-    ux: float,
-    uy: float,
-    uz: float,
-    allowance: float,
-) -> bool:
+def polygon_walkable_hits_sphere(wf: Array, p: int, sphere: Sphere, up: Vector, allowance: float) -> bool:
     """Say whether the polygon is flat enough and touches the sphere.
 
     retail: CPolygon::walkable_hits_sphere 0x00539560, WH-1, WH-2
     """
-    if not along_normal(wf, p, ux, uy, uz) > allowance:
+    x, y, z = up
+    if not along_normal(wf, p, x, y, z) > allowance:
         return False
-    code, _, _, _ = polygon_hits_sphere_slow_but_sure(wf, p, x, y, z, r)
+    code, _, _, _ = polygon_hits_sphere_slow_but_sure(wf, p, sphere)
     return code == HIT

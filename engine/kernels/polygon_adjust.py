@@ -10,17 +10,17 @@ from engine.kernels.polygon import along_normal, plane_distance
 from engine.kernels.rounding import f32
 
 if TYPE_CHECKING:
-    from engine.kernels.types import Array, Vector
+    from engine.kernels.types import Array, Sphere, Vector
 
 
 @entry
-def polygon_adjust_sphere_to_poly(
-    wf: Array, p: int, radius: float, cx: float, cy: float, cz: float, mx: float, my: float, mz: float
-) -> float:
-    """Return the fraction of a movement from (cx, cy, cz) at which the sphere touches the plane.
+def polygon_adjust_sphere_to_poly(wf: Array, p: int, radius: float, begin: Vector, movement: Vector) -> float:
+    """Return the fraction of a movement from `begin` at which the sphere touches the plane.
 
     retail: CPolygon::adjust_sphere_to_poly 0x00538170, AP-1...AP-5
     """
+    cx, cy, cz = begin
+    mx, my, mz = movement
     dist0 = f32(plane_distance(wf, p, cx, cy, cz))
     if abs(dist0) < radius:
         return 1.0
@@ -33,39 +33,32 @@ def polygon_adjust_sphere_to_poly(
 
 @inlined_entry
 def polygon_adjust_sphere_to_plane(
-    wf: Array,
-    p: int,
-    radius: float,
-    x: float,
-    y: float,
-    z: float,
-    mx: float,
-    my: float,
-    mz: float,
-    interp: float,
-) -> tuple[bool, float, float, float, float]:
+    wf: Array, p: int, sphere: Sphere, movement: Vector, interp: float
+) -> tuple[bool, Sphere, float]:
     """Move a sphere back along its movement until it rests on the plane.
 
-    Returns whether it did, the centre, and walk_interp.
+    Returns whether it did, the sphere, and walk_interp.
 
     retail: CPolygon::adjust_sphere_to_plane 0x00538210, AS-1...AS-6
     """
+    x, y, z, radius = sphere
+    mx, my, mz = movement
     dist = plane_distance(wf, p, x, y, z)
     v = along_normal(wf, p, mx, my, mz)
     if v > EPS:
         num = (-radius) - dist
     elif v >= -EPS:
-        return False, x, y, z, interp
+        return False, sphere, interp
     else:
         num = dist - radius
     t = num / v
     w = (1.0 - t) * interp
     w32 = f32(w)
     if w >= interp or w32 < WALK_INTERP_FLOOR:
-        return False, x, y, z, interp
+        return False, sphere, interp
     oy = f32(t * my)
     oz = f32(t * mz)
-    return True, f32(x - t * mx), f32(y - oy), f32(z - oz), w32
+    return True, (f32(x - t * mx), f32(y - oy), f32(z - oz), radius), w32
 
 
 @entry

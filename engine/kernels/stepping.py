@@ -30,7 +30,7 @@ from engine.kernels.polygon_support import polygon_check_walkable, polygon_find_
 from engine.kernels.probing import probe
 from engine.kernels.rounding import f32
 from engine.kernels.sphere import movement_along, slide_sphere
-from engine.kernels.vector import copy_position, load, store
+from engine.kernels.vector import copy_position, load, load_four, store
 from engine.layout import (
     BACKUP,
     CELL_ARRAY_VALID,
@@ -95,11 +95,8 @@ def _check_walkables(wf: Array, s: Array) -> bool:
     poly = int(s[WALKABLE])
     if poly == NO_POLYGON:
         return True
-    radius = f32(s[WALKABLE_CHECK_POS + RADIUS] * 0.5)
-    s[WALKABLE_CHECK_POS + RADIUS] = radius
-    x, y, z = load(s, WALKABLE_CHECK_POS)
-    ux, uy, uz = load(s, WALKABLE_UP)
-    return polygon_check_walkable(wf, poly, x, y, z, radius, ux, uy, uz)
+    s[WALKABLE_CHECK_POS + RADIUS] = f32(s[WALKABLE_CHECK_POS + RADIUS] * 0.5)
+    return polygon_check_walkable(wf, poly, load_four(s, WALKABLE_CHECK_POS), load(s, WALKABLE_UP))
 
 
 @inlined
@@ -225,9 +222,8 @@ def precipice_slide(wf: Array, s: Array) -> int:
 
     retail: SPHEREPATH::precipice_slide 0x0050CC80, PS-1...PS-7 of document 04
     """
-    x, y, z = load(s, WALKABLE_CHECK_POS)
-    ux, uy, uz = load(s, WALKABLE_UP)
-    found, nx, ny, nz = polygon_find_crossed_edge(wf, int(s[WALKABLE]), x, y, z, ux, uy, uz)
+    center, up = load(s, WALKABLE_CHECK_POS), load(s, WALKABLE_UP)
+    found, nx, ny, nz = polygon_find_crossed_edge(wf, int(s[WALKABLE]), center, up)
     s[WALKABLE] = NO_POLYGON
     if not found:
         return COLLIDED

@@ -156,6 +156,6 @@ def test_what_is_hit_passes_the_bounding_sphere(
     shape = Shape(points, [(0, 1, 2)], Leaf(bounds, (0,)))
     assume(gate_radius(shape) == GATE_MOST)
     x, y, z = np.float32(points[k] + (r - EPS + beyond * EPS) / lengths[k] * ways[k]).astype(np.float64)
-    code = polygon_hits_sphere_slow_but_sure(shape.polygon_floats, 0, x, y, z, r)[0]
+    code = polygon_hits_sphere_slow_but_sure(shape.polygon_floats, 0, (x, y, z, r))[0]
     within = AS_WRITTEN.function(in_bounds)(shape.node_floats.ravel(), 0, (x, y, z, r))
     assert code != HIT or within

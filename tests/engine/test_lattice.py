@@ -223,7 +223,7 @@ def hit(world: World, x: float, y: float, z: float, r: float) -> Iterator[int]:
     """Yield the polygons of a world's first shape that a sphere touches."""
     shape = world.shapes[0]
     for k in range(len(shape.polygon_offsets)):
-        if polygon_hits_sphere_slow_but_sure(world.floats, world.polygon(0, k), x, y, z, r)[0] == HIT:
+        if polygon_hits_sphere_slow_but_sure(world.floats, world.polygon(0, k), (x, y, z, r))[0] == HIT:
             yield k
 
 

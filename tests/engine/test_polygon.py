@@ -55,8 +55,8 @@ def test_the_answer_is_that_of_the_walk(name: str, place: tuple[float, float, fl
     unknown = floats.copy()
     unknown[POLYGON_CONVEX] = 0.0
     center = np.float32(np.array(place) + CONVEX[name][0]).astype(np.float64).tolist()
-    short = polygon_hits_sphere_slow_but_sure(floats, 0, *center, radius)
-    assert short == polygon_hits_sphere_slow_but_sure(unknown, 0, *center, radius)
+    short = polygon_hits_sphere_slow_but_sure(floats, 0, (*center, radius))
+    assert short == polygon_hits_sphere_slow_but_sure(unknown, 0, (*center, radius))
     assert short[0] in (BEYOND, MISS, HIT)
 
 
@@ -67,5 +67,5 @@ def test_the_walk_is_needed_where_a_polygon_is_not_convex() -> None:
     answers = []
     for convex in (0.0, 1.0):
         floats[POLYGON_CONVEX] = convex
-        answers.append(polygon_hits_sphere_slow_but_sure(floats, 0, *center, 0.25)[0])
+        answers.append(polygon_hits_sphere_slow_but_sure(floats, 0, (*center, 0.25))[0])
     assert answers == [HIT, MISS]

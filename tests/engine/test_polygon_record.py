@@ -103,7 +103,7 @@ def test_a_point_is_inside_as_if_nothing_were_precomputed(vertices: list[Any], p
 def test_a_sphere_hits_as_if_nothing_were_precomputed(vertices: list[Any], center: Any, r: float) -> None:
     """The precomputed normals and squared lengths decide each comparison as the formulas do."""
     wf = record(vertices)
-    code, qx, qy, qz = polygon_hits_sphere(wf, 0, *center, r)
+    code, qx, qy, qz = polygon_hits_sphere(wf, 0, (*center, r))
     if code == BEYOND:
         return
     nx, ny, nz, d = wf[:4].tolist()
@@ -120,7 +120,7 @@ def test_the_crossed_edge_is_the_same_as_if_nothing_were_precomputed(flat: list[
     wf = record(vertices)
     if abs(wf[2]) != 1.0:
         return
-    found, *normal = polygon_find_crossed_edge(wf, 0, point[0], point[1], point[2], 0.0, 0.0, 1.0)
+    found, *normal = polygon_find_crossed_edge(wf, 0, point, (0.0, 0.0, 1.0))
     expected = crossed(wf, vertices, point[0], point[1], 0.0)
     assert (tuple(normal) if found else None) == expected
 

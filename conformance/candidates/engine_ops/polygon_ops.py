@@ -42,7 +42,7 @@ def _point_in_poly2d(query: Query) -> Fields:
 
 def _hits_sphere(kernel: Callable[..., Any]) -> Callable[[Query], Fields]:
     def operation(query: Query) -> Fields:
-        code, *contact = kernel(*_polygon(query), *ball(query.inputs["sphere"]))
+        code, *contact = kernel(*_polygon(query), ball(query.inputs["sphere"]))
         reached = code != BEYOND
         return {"r": int(code == HIT), "contact": point_or_null(*contact, valid=reached)}
 
@@ -51,9 +51,9 @@ def _hits_sphere(kernel: Callable[..., Any]) -> Callable[[Query], Fields]:
 
 def _pos_hits_sphere(query: Query) -> Fields:
     wf, p = _polygon(query)
-    code, *contact = polygons.polygon_hits_sphere_slow_but_sure(wf, p, *ball(query.inputs["sphere"]))
+    code, *contact = polygons.polygon_hits_sphere_slow_but_sure(wf, p, ball(query.inputs["sphere"]))
     hit = code == HIT
-    against = not polygons.polygon_moved_along(wf, p, *vector(query.inputs["movement"]))
+    against = not polygons.polygon_moved_along(wf, p, vector(query.inputs["movement"]))
     return {
         "r": int(hit and against),
         "struck": int(hit),
@@ -64,32 +64,29 @@ def _pos_hits_sphere(query: Query) -> Fields:
 def _walkable_hits_sphere(query: Query) -> Fields:
     inputs = query.inputs
     r = polygons.polygon_walkable_hits_sphere(
-        *_polygon(query), *ball(inputs["sphere"]), *vector(inputs["up"]), float(inputs["walkable_allowance"])
+        *_polygon(query), ball(inputs["sphere"]), vector(inputs["up"]), float(inputs["walkable_allowance"])
     )
     return {"r": int(r)}
 
 
 def _supports(kernel: Callable[..., bool]) -> Callable[[Query], Fields]:
     def operation(query: Query) -> Fields:
-        return {
-            "r": int(kernel(*_polygon(query), *ball(query.inputs["sphere"]), *vector(query.inputs["up"])))
-        }
+        r = kernel(*_polygon(query), ball(query.inputs["sphere"]), vector(query.inputs["up"]))
+        return {"r": int(r)}
 
     return operation
 
 
 def _find_crossed_edge(query: Query) -> Fields:
-    x, y, z, _ = ball(query.inputs["sphere"])
-    found, *normal = polygon_support.polygon_find_crossed_edge(
-        *_polygon(query), x, y, z, *vector(query.inputs["up"])
-    )
+    center, up = vector(query.inputs["sphere"][:3]), vector(query.inputs["up"])
+    found, *normal = polygon_support.polygon_find_crossed_edge(*_polygon(query), center, up)
     return {"r": int(found), "normal": point_or_null(*normal, valid=found)}
 
 
 def _adjust_sphere_to_plane(query: Query) -> Fields:
-    x, y, z, r = ball(query.inputs["sphere"])
-    moved, *center, interp = polygon_adjust.polygon_adjust_sphere_to_plane(
-        *_polygon(query), r, x, y, z, *vector(query.inputs["movement"]), float(query.inputs["walk_interp"])
+    inputs = query.inputs
+    moved, (*center, _), interp = polygon_adjust.polygon_adjust_sphere_to_plane(
+        *_polygon(query), ball(inputs["sphere"]), vector(inputs["movement"]), float(inputs["walk_interp"])
     )
     return {"r": int(moved), "center": center, "walk_interp": interp}
 
@@ -97,7 +94,7 @@ def _adjust_sphere_to_plane(query: Query) -> Fields:
 def _adjust_sphere_to_poly(query: Query) -> Fields:
     inputs = query.inputs
     t = polygon_adjust.polygon_adjust_sphere_to_poly(
-        *_polygon(query), float(inputs["sphere"][3]), *vector(inputs["curr"]), *vector(inputs["movement"])
+        *_polygon(query), float(inputs["sphere"][3]), vector(inputs["curr"]), vector(inputs["movement"])
     )
     return {"t": t}
 
