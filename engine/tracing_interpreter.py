@@ -17,7 +17,7 @@ import numpy as np
 from numba.core.dispatcher import Dispatcher
 
 from engine.kernels.abreast import flat_planes, lowest, near_planes
-from engine.kernels.ahead import bring_near, bring_nearer, bring_to_write
+from engine.kernels.ahead import bring_near, bring_to_write
 from engine.kernels.fours import move_four, put_four
 from engine.kernels.octets import octet
 from engine.kernels.sharing import add_to
@@ -180,7 +180,6 @@ def _whole(function: Callable[[Any], Any]) -> Callable[[Any], int]:
 _MACHINE: Final[dict[Any, Callable[..., Any]]] = {
     add_to: _add_to,
     bring_near: _ignore,
-    bring_nearer: _ignore,
     bring_to_write: _ignore,
     near_planes: _near_planes,
     sides_outside: _sides_outside,

@@ -1,9 +1,7 @@
 """Rows brought near before their turn: a row of results is eleven cache lines that nobody has read yet.
 
-Near is the first cache, for what takes less time than it takes to bring its rows; else the second, so that
-what the query at hand needs of the world is not driven out of the first. What is going to be written has to
-be taken from all other processors' caches. What is only read must not: they may be reading it, too, and a
-processor may write it back to memory as if it had been changed.
+What is going to be written has to be taken from all other processors' caches. What is only read must not:
+they may be reading it, too, and a processor may write it back to memory as if it had been changed.
 """
 
 from __future__ import annotations
@@ -28,12 +26,11 @@ _WRITTEN: Final = 1
 _DATA: Final = 1
 """and that it is no code."""
 _FIRST: Final = 3
-_SECOND: Final = 2
-"""How LLVM numbers caches."""
+"""How LLVM numbers the first cache."""
 
 
-def _hint(use: int, cache: int) -> Any:
-    """Return the intrinsic that has an element of an array brought into a cache, to be read or written."""
+def _hint(use: int) -> Any:
+    """Return the intrinsic that has an element of an array brought near, to be read or written."""
 
     def generate(context: Any, builder: Any, signature: Any, arguments: Any) -> Any:
         array = context.make_array(signature.args[0])(context, builder, arguments[0])
@@ -41,7 +38,7 @@ def _hint(use: int, cache: int) -> Any:
         number = ir.IntType(32)
         kind = ir.FunctionType(ir.VoidType(), [place.type, number, number, number])
         fetch = builder.module.declare_intrinsic("llvm.prefetch", [place.type], kind)
-        builder.call(fetch, [place, *(ir.Constant(number, k) for k in (use, cache, _DATA))])
+        builder.call(fetch, [place, *(ir.Constant(number, k) for k in (use, _FIRST, _DATA))])
         return context.get_dummy_value()
 
     def prefetch(_typing: Any, numbers: Any, _place: Any) -> Any:
@@ -51,28 +48,23 @@ def _hint(use: int, cache: int) -> Any:
     return intrinsic(prefetch)
 
 
-_read_from_first: Final[Any] = _hint(_READ, _FIRST)
-_read_from_second: Final[Any] = _hint(_READ, _SECOND)
-_written_to_first: Final[Any] = _hint(_WRITTEN, _FIRST)
+_to_read: Final[Any] = _hint(_READ)
+_to_write: Final[Any] = _hint(_WRITTEN)
 
 
 @inlined
 def bring_near(rows: Array | Ints, first: int, count: int) -> None:
     """Have so many of an array's numbers, from the first on, brought into the first cache, to be read."""
     for k in range(0, count, LINE):
-        _read_from_first(rows, first + k)
-
-
-@inlined
-def bring_nearer(rows: Array, first: int, count: int) -> None:
-    """Have so many, and the last, brought into the second cache, to be read."""
-    for k in range(0, count, LINE):
-        _read_from_second(rows, first + k)
-    _read_from_second(rows, first + count - 1)
+        _to_read(rows, first + k)
+    if count % LINE != 1:
+        _to_read(rows, first + count - 1)
 
 
 @inlined
 def bring_to_write(rows: Array | Ints, first: int, count: int) -> None:
     """Have so many brought into the first cache, to be written."""
     for k in range(0, count, LINE):
-        _written_to_first(rows, first + k)
+        _to_write(rows, first + k)
+    if count % LINE != 1:
+        _to_write(rows, first + count - 1)

@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Final
 
 from engine.constants import frozen
-from engine.kernels.ahead import bring_near
+from engine.kernels.ahead import bring_near, bring_to_write
 from engine.kernels.bsp_poly import sphere_intersects_poly
 from engine.kernels.bsp_walkable import find_walkable
 from engine.kernels.compile import entry, inlined, kernel
@@ -42,14 +42,6 @@ def _sphere(a: Array, i: int) -> Sphere:
 
 
 @inlined
-def _bring(rows: Array | Ints, i: int, size: int) -> None:
-    """Have one of many vectors, or single numbers, brought near: its first number, and its last."""
-    bring_near(rows, size * i, 1)
-    if size > 1:
-        bring_near(rows, size * i + size - 1, 1)
-
-
-@inlined
 def _id(wf: Array, poly: int) -> int:
     """Return a polygon's id in its shape, or -1."""
     return int(wf[poly + POLYGON_ID]) if poly != NO_POLYGON else -1
@@ -75,10 +67,10 @@ def _strike_some(
     """
     for k in range(first, last):
         i, later = turn(order, k), turn(order, min(k + AHEAD, last - 1))
-        _bring(spheres, later, SPHERE_SIZE)
-        _bring(movements, later, VECTOR_SIZE)
-        _bring(struck, later, 1)
-        _bring(polygons, later, 1)
+        bring_near(spheres, SPHERE_SIZE * later, SPHERE_SIZE)
+        bring_near(movements, VECTOR_SIZE * later, VECTOR_SIZE)
+        bring_to_write(struck, later, 1)
+        bring_to_write(polygons, later, 1)
         sphere, movement = _sphere(spheres, i), _vector(movements, i)
         struck[i], poly = sphere_intersects_poly(wf, wi, s, root, sphere, movement, NO_POLYGON)
         polygons[i] = _id(wf, poly)
@@ -107,13 +99,13 @@ def _step_some_down(
     """
     for k in range(first, last):
         i, later = turn(order, k), turn(order, min(k + AHEAD, last - 1))
-        _bring(spheres, later, SPHERE_SIZE)
-        _bring(movements, later, VECTOR_SIZE)
-        _bring(ups, later, VECTOR_SIZE)
-        _bring(centers, later, VECTOR_SIZE)
-        _bring(allowances, later, 1)
-        _bring(interps, later, 1)
-        _bring(polygons, later, 1)
+        bring_near(spheres, SPHERE_SIZE * later, SPHERE_SIZE)
+        bring_near(movements, VECTOR_SIZE * later, VECTOR_SIZE)
+        bring_near(ups, VECTOR_SIZE * later, VECTOR_SIZE)
+        bring_to_write(centers, VECTOR_SIZE * later, VECTOR_SIZE)
+        bring_near(allowances, later, 1)
+        bring_to_write(interps, later, 1)
+        bring_to_write(polygons, later, 1)
         s[WALKABLE_ALLOWANCE] = f32(allowances[i])
         s[WALK_INTERP] = f32(interps[i])
         sphere, movement, up = _sphere(spheres, i), _vector(movements, i), _vector(ups, i)

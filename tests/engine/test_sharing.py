@@ -11,7 +11,7 @@ from engine import Move
 from engine import layout as of
 from engine.coherence import AS_ASKED
 from engine.kernels import program
-from engine.kernels.ahead import bring_near, bring_nearer
+from engine.kernels.ahead import bring_near, bring_to_write
 from engine.kernels.sharing import (
     FEWEST,
     LANE_INTS,
@@ -92,5 +92,5 @@ def test_interpreted_kernels_take_rows_too() -> None:
     """Without the machine's instruction; a hint to the machine is none for Python."""
     share = new_share(9)
     assert [TAKE(share, LANE) for _ in range(4)] == [(0, 4), (4, 8), (8, 9), (12, 9)]
-    for bring in (bring_near, bring_nearer):
+    for bring in (bring_near, bring_to_write):
         assert INTERPRETER.function(bring)(np.zeros((1, 1)), 5, 1) is None
