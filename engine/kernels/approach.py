@@ -1,9 +1,12 @@
-"""What a call will read of its tree's lattice, brought near while others are answered.
+"""What a query will look up first in its tree's lattice, brought near while others are answered.
 
-In a large world a call finds little of that in a cache: its block's words, the list that one of them
-points to, and the polygons of the list lie all over memory, each where the one before says, and it would
-wait for each. So while a call is answered, one step is taken for each of the next four: what a step reads
-was brought near by the step before, a call ago.
+In a large world it finds little of that in a cache: its block's words, the list that one of them points to,
+and the polygons of the list lie all over memory, each where the one before says, and it would wait for each.
+So while a query is answered, one step is taken for each of the next four: what a step reads was brought near
+by the step before, a query ago.
+
+Queries are single calls of a cell's tree, and moves, which nearly always look up first what is near where
+they end.
 
 The mover is taken for upright, which nearly all are. For another, something is brought near that nobody
 reads: no answer depends on it.
@@ -16,7 +19,7 @@ from typing import TYPE_CHECKING, Final, TypeAlias
 from engine.constants import frozen
 from engine.kernels.ahead import bring_near
 from engine.kernels.cell_array import ints_of, position_of
-from engine.kernels.compile import inlined
+from engine.kernels.compile import inlined, kernel
 from engine.kernels.indexing import unsigned
 from engine.kernels.lattice import NOWHERE, cube_at, half, is_unknown, listed, lists_of
 from engine.kernels.position import block_offset
@@ -30,7 +33,6 @@ from engine.layout import (
     POSE_ORIGIN,
     Q_END,
     Q_SPHERES,
-    Q_TARGET_CELL,
     WORLD_CELLS,
 )
 
@@ -38,14 +40,14 @@ if TYPE_CHECKING:
     from engine.kernels.types import Array, Ints, Vector
 
 Steps: TypeAlias = tuple[tuple[int, int, int], tuple[int, int, int], tuple[int, int, int]]
-"""Of the calls whose turn comes in four, three and two: where the table tells of the block, the cube in it,
+"""Of the queries whose turn comes in four, three and two: where the table tells of the block, the cube in it,
 and the tree's lists; where the block's words begin, and the same; where in the lists the polygons begin and
 end, and the lists."""
 
 STEPS: Final = frozen(4)
-"""How many calls before its turn a call's first step is taken."""
+"""How many queries before its turn a query's first step is taken."""
 NO_STEPS: Final[Steps] = (NOWHERE, 0, 0), (NOWHERE, 0, 0), (0, 0, 0)
-"""What is known of calls that no step has been taken for."""
+"""What is known of queries that no step has been taken for."""
 MOST: Final = frozen(4)
 """Polygons of a list that are brought near, at most."""
 LARGE: Final = frozen(1 << 17)
@@ -74,15 +76,15 @@ def _place(wf: Array, p: int, q: Array) -> Vector:
 
 
 @inlined
-def _find_entry(wf: Array, wi: Ints, q: Array) -> tuple[int, int, int]:
-    """Take the first step of a call: find out where its cube is."""
-    if not 0.0 <= q[Q_TARGET_CELL] < wi[WORLD_CELLS]:
+def _find_entry(wf: Array, wi: Ints, q: Array, cell: float) -> tuple[int, int, int]:
+    """Take the first step of a query: find out where its cube is."""
+    if not 0.0 <= cell < wi[WORLD_CELLS]:
         return NOWHERE, 0, 0
-    cell = int(q[Q_TARGET_CELL])
-    root = wi[ints_of(wi, cell) + CELL_TREE]
+    index = int(cell)
+    root = wi[ints_of(wi, index) + CELL_TREE]
     if root == NO_TREE:
         return NOWHERE, 0, 0
-    x, y, z = _place(wf, position_of(wi, cell), q)
+    x, y, z = _place(wf, position_of(wi, index), q)
     entry, cube = cube_at(wf, wi, root, x, y, z)
     if entry != NOWHERE:
         bring_near(wi, entry, 1)
@@ -119,16 +121,17 @@ def _bring_polygons(wf: Array, wi: Ints, first: int, end: int, lists: int) -> No
         bring_near(wf, half(wi, lists, i), POLYGON_CORNERS)
 
 
-@inlined
-def approach(wf: Array, wi: Ints, q: Array, steps: Steps) -> Steps:
-    """Take one step for each of the calls that come next.
+@kernel
+def approach(wf: Array, wi: Ints, q: Array, cell: float, steps: Steps) -> Steps:
+    """Take one step for each of the queries that come next.
 
-    `q` is the query of the last of them, `STEPS` calls from now; `steps` has been returned a call ago.
+    `q` is the row of the last of them, `STEPS` queries from now, and `cell` the index of the cell in which it
+    looks something up; `steps` has been returned a query ago.
     """
     (entry, its_cube, its_lists), (words, cube, lists), (first, end, near) = steps
     _bring_polygons(wf, wi, first, end, near)
     return (
-        _find_entry(wf, wi, q),
+        _find_entry(wf, wi, q, cell),
         _find_words(wi, entry, its_cube, its_lists),
         _find_list(wi, words, cube, lists),
     )

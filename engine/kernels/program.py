@@ -18,7 +18,7 @@ from engine.kernels.object_calls import meet
 from engine.kernels.order import BODIES, CALLS, MOVES, put_in_order, turn
 from engine.kernels.plan import allows
 from engine.kernels.resolving import resolve
-from engine.kernels.sharing import SHARE_LANES, join, lane_after, put_back, take
+from engine.kernels.sharing import SHARE_LANES, SHARE_REORDERED, join, lane_after, put_back, take
 from engine.kernels.strangers import (
     is_strange_body,
     is_strange_collision,
@@ -31,7 +31,9 @@ from engine.kernels.tick_placement import place
 from engine.layout import (
     COLLISION_INFO_SIZE,
     PLAN_WALKS,
+    Q_BEGIN_CELL,
     Q_COLLISION_INFO,
+    Q_TARGET_CELL,
     QUERY_SIZE,
     R_STATUS,
     RESULT_SIZE,
@@ -111,13 +113,34 @@ def _bring(job: int, rows: Array, i: int) -> None:
         bring_to_write(rows, BODY_SIZE * i, B_RECORDS)
 
 
+@inlined
+def _approaches(wf: Array, wi: Ints, s: Array, job: int, share: Ints) -> bool:
+    """Say whether what rows look up of lattices is brought near ahead of their turn.
+
+    Moves that have not been sorted mostly fly, and look nothing up; or they are few.
+    """
+    looks_up = job == COLLIDE or (job == RESOLVE and share[SHARE_REORDERED] != 0)
+    return looks_up and is_large(wf, wi) and allows(s, PLAN_WALKS)
+
+
 @kernel
 def _resolve_some(
-    wf: Array, wi: Ints, s: Array, rows: Array, out: Array, order: Order, first: int, last: int
+    wf: Array,
+    wi: Ints,
+    s: Array,
+    rows: Array,
+    out: Array,
+    order: Order,
+    first: int,
+    end: int,
+    last: int,
 ) -> int:
-    """Answer some moves; return how many could not be. A loop of their own spares them the other jobs."""
+    """Answer some moves; return how many could not be. A loop of their own spares them the other jobs.
+
+    `end`: of those that are answered now; `last`: of those that are brought near.
+    """
     failed = 0
-    for k in range(first, last):
+    for k in range(first, end):
         i, later = turn(order, k), turn(order, min(k + AHEAD, last - 1))
         bring_near(rows, QUERY_SIZE * later, _OF_MOVES)
         if is_strange_move(wi, rows[i]):
@@ -125,6 +148,24 @@ def _resolve_some(
         else:
             resolve(wf, wi, s, rows[i], out[i], out[later])
         failed += out[i, R_STATUS] != STATUS_OK
+    return failed
+
+
+@kernel
+def _resolve_approached(
+    wf: Array, wi: Ints, s: Array, rows: Array, out: Array, order: Order, first: int, last: int
+) -> int:
+    """Answer some moves, and bring near what they look up; return how many could not be answered.
+
+    A loop of its own spares free flights what it carries along.
+    """
+    failed = 0
+    steps = NO_STEPS
+    for k in range(first, last):
+        bring_near(rows, QUERY_SIZE * turn(order, min(k + STEPS + AHEAD, last - 1)), _OF_MOVES)
+        coming = rows[turn(order, min(k + STEPS, last - 1))]
+        steps = approach(wf, wi, coming, coming[Q_BEGIN_CELL], steps)
+        failed += _resolve_some(wf, wi, s, rows, out, order, k, k + 1, last)
     return failed
 
 
@@ -148,18 +189,21 @@ def _do_some(
     order: Order,
     first: int,
     last: int,
+    approaches: bool,
 ) -> int:
     """Do a job for some rows; return for how many it failed."""
+    if job == RESOLVE and approaches:
+        return _resolve_approached(wf, wi, s, rows, out, order, first, last)
     if job == RESOLVE:
-        return _resolve_some(wf, wi, s, rows, out, order, first, last)
+        return _resolve_some(wf, wi, s, rows, out, order, first, last, last)
     failed = 0
-    approaches = job == COLLIDE and is_large(wf, wi) and allows(s, PLAN_WALKS)
     steps = NO_STEPS
     ahead = FAR_AHEAD + STEPS if approaches else FAR_AHEAD
     for k in range(first, last):
         _bring(job, rows, turn(order, min(k + ahead, last - 1)))
         if approaches:
-            steps = approach(wf, wi, rows[turn(order, min(k + STEPS, last - 1))], steps)
+            coming = rows[turn(order, min(k + STEPS, last - 1))]
+            steps = approach(wf, wi, coming, coming[Q_TARGET_CELL], steps)
         failed += _do(wf, wi, s, job, rows, out, turn(order, k)) != STATUS_OK
     return failed
 
@@ -173,9 +217,11 @@ def run(wf: Array, wi: Ints, s: Array, job: int, rows: Array, out: Array, order:
     """
     own = join(share)
     put_in_order(_kind_of(job), rows, order, share)
+    approaches = _approaches(wf, wi, s, job, share)
     for k in range(share[SHARE_LANES]):
         lane = lane_after(share, own, k)
         first, last = take(share, lane)
         while first < last:
-            put_back(share, last - first, _do_some(wf, wi, s, job, rows, out, order, first, last))
+            failed = _do_some(wf, wi, s, job, rows, out, order, first, last, approaches)
+            put_back(share, last - first, failed)
             first, last = take(share, lane)

@@ -1,4 +1,4 @@
-"""What is brought near before a call's turn: what it will look up, whatever stands in the rows."""
+"""What is brought near before a query's turn: what it will look up, whatever stands in the rows."""
 
 from __future__ import annotations
 
@@ -9,15 +9,16 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 import pytest
 
-from conformance.bench.sampling import tree_calls
+from conformance.bench.sampling import contact_walk, tree_calls
 from conformance.bench.scenes import CELL, make_scene
 from conformance.bench.spots import Surfaces
-from engine import Cell, Pose, QueryError, World, find_collisions_many
+from engine import Cell, Pose, QueryError, World, find_collisions_many, resolve_many
 from engine import layout as at
 from engine.kernels.ahead import bring_near
 from engine.kernels.approach import MOST, NO_STEPS, STEPS, approach, is_large
 from engine.kernels.collisions import collide
 from engine.kernels.lattice import NOWHERE, cube_at, half, is_unknown, listed, lists_of, nothing_near
+from engine.probes import count_reordered
 from engine.tracing_interpreter import Interpreter
 
 if TYPE_CHECKING:
@@ -26,6 +27,8 @@ if TYPE_CHECKING:
     from engine.query import Rows
 
 CALLS = 300
+MOVES = 1200
+"""Enough to be sorted."""
 NOT_A_PLACE = (math.nan, math.inf, -math.inf, 1e300, -1e300)
 NOT_A_CELL = (-1.0, 1.0, math.nan, math.inf, 1e300)
 """Indices of no cell of a world of one."""
@@ -57,7 +60,7 @@ def brought(world: World, rows: Rows) -> list[list[tuple[bool, int]]]:
     with np.errstate(all="ignore"):
         for row in [*numbers, *repeat(numbers[-1], STEPS - 1)]:
             places.clear()
-            steps = step(floats, ints, row, steps)
+            steps = step(floats, ints, row, row[at.Q_TARGET_CELL], steps)
             turns.append(list(places))
     return turns
 
@@ -152,6 +155,21 @@ def test_strangers_between_others_change_no_answer(building: BenchScene, calls: 
     with pytest.raises(QueryError, match="row 7"):
         find_collisions_many(world, rows, out=out)
     assert out[others].tobytes() == alone[others].tobytes()
+
+
+def test_strangers_between_movers_change_no_answer(building: BenchScene) -> None:
+    """Each move is answered as it is without knowing who comes next; the first of them may begin nowhere."""
+    rows = contact_walk(building, Surfaces(building.geometry), np.random.default_rng(2), MOVES).rows
+    for k, cell in enumerate(NOT_A_CELL):
+        rows["begin_cell"][7 + 10 * k] = cell
+    for k, place in enumerate(NOT_A_PLACE):
+        rows["end"][8 + 10 * k, -3:] = place
+    answers = [np.zeros(len(rows), dtype=at.RESULT_DTYPE) for _ in range(2)]
+    for coherent, out in enumerate(answers):
+        with count_reordered() as reordered, pytest.raises(QueryError, match="row 17"):
+            resolve_many(building.world, rows, coherent=bool(coherent), out=out)
+        assert reordered.queries == coherent * len(rows)
+    assert answers[0].tobytes() == answers[1].tobytes()
 
 
 def test_only_in_a_large_world_calls_are_approached(building: BenchScene) -> None:
