@@ -65,8 +65,8 @@ AHEAD: Final = frozen(2)
 The row of results is brought when half of the work before is done: more than a dozen lines at a time, and the
 processor waits for the first of them."""
 FAR_AHEAD: Final = frozen(4)
-"""The same for the rows of calls and bodies; and before the first step of an approach
-reads it, if there is one (`engine.kernels.approach`)."""
+"""The same for the rows of calls and bodies; and before the first step of an approach reads it, if there is
+one (`engine.kernels.approach`)."""
 _OF_MOVES: Final = frozen(Q_COLLISION_INFO + COLLISION_INFO_SIZE)
 """Numbers of a query's row that a move reads: the rest is for single calls."""
 
@@ -106,7 +106,7 @@ def _do(wf: Array, wi: Ints, s: Array, job: int, rows: Array, out: Array, i: int
 
 @inlined
 def _bring(job: int, rows: Array, i: int) -> None:
-    """Have a row brought nearer: of a body, what is before the objects it has touched."""
+    """Have a row brought near: of a body, what is before the objects it has touched."""
     if job in (COLLIDE, MEET):
         bring_near(rows, QUERY_SIZE * i, QUERY_SIZE)
     elif job != PLACE:
