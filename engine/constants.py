@@ -219,6 +219,9 @@ BOUND_ROUNDING: Final = 2.0**-15
 """The same for roundings, as a part of a coordinate: 512 stores to float32."""
 BOUND_TILT: Final = 0.0025
 """How much a matrix may stretch whose quaternion is of unit length within EPS5, as a part of a length."""
+BOUND_CORNER: Final = 1.4143
+"""How far a sphere's centre may be from a cylinder that it overlaps, as a part of its radius: the root of 2,
+and more. Retail compares the level distance and the upright one, each with the radius (07 10.1)."""
 BOUND_MOST: Final = 2.0**14
 """Greatest coordinate, or radius, of geometry that has bounds, metres: float32 counts by 1 mm there."""
 UP_SLACK: Final = 2.0**-10

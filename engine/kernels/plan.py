@@ -14,7 +14,7 @@ from __future__ import annotations
 import math
 from typing import TYPE_CHECKING
 
-from engine.constants import IS_VIEWER
+from engine.constants import BOUND_CORNER, IS_VIEWER
 from engine.kernels.broad import ball_beyond, bounds_of, listed_ball
 from engine.kernels.cell_array import ints_of
 from engine.kernels.compile import inlined, kernel
@@ -80,7 +80,8 @@ def _clear_of(wf: Array, s: Array, ball: int) -> bool:
 
     The spheres are bounded by one ball, with the larger of both radii for both: retail tests the second
     sphere of the mover with the radius of the first (07 2, 10.1); and it squares sums of radii, so that a
-    negative one, which only the second may have, reaches as far as a positive one.
+    negative one, which only the second may have, reaches as far as a positive one. And at the edge of a
+    cylinder a sphere counts as if it were one, too: its corner is `BOUND_CORNER` radii from its centre.
     """
     x, y, z = load(s, GLOBAL_SPHERE)
     r = s[GLOBAL_SPHERE + RADIUS]
@@ -95,7 +96,7 @@ def _clear_of(wf: Array, s: Array, ball: int) -> bool:
     reach = _sphere_reach(s, 0, x, y, z)
     if two:
         reach = max(reach, _sphere_reach(s, 1, x, y, z))
-    return ball_beyond(wf, ball, s[CHECK_POS], x, y, z, reach + r + slack(x, y, z))
+    return ball_beyond(wf, ball, s[CHECK_POS], x, y, z, reach + BOUND_CORNER * r + slack(x, y, z))
 
 
 @kernel

@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from typing import TYPE_CHECKING
 
-from engine.constants import BOUND_ROUNDING, BOUND_TILT, FLIGHT_STEPS
+from engine.constants import BOUND_CORNER, BOUND_ROUNDING, BOUND_TILT, FLIGHT_STEPS
 from engine.kernels.broad import ball_beyond, bounds_of, fences_beyond, listed_ball, tree_beyond
 from engine.kernels.cell_array import cell_id, ints_of, is_land, position_of
 from engine.kernels.clearance import known_clear
@@ -73,7 +73,8 @@ def _turned(rotation: Quaternion, x: float, y: float, z: float) -> Vector:
 def _objects_beyond(
     wf: Array, wi: Ints, cell: int, home: float, x: float, y: float, z: float, r: float
 ) -> bool:
-    """Say whether a ball is clear of all objects of a cell."""
+    """Say whether spheres in a ball are clear of all objects of a cell, of cylinders' edges as well."""
+    r *= BOUND_CORNER
     if ball_beyond(wf, bounds_of(wi, cell), home, x, y, z, r):
         return True
     first = wi[ints_of(wi, cell) + CELL_OBJECTS]

@@ -28,7 +28,7 @@ from engine import (
     resolve,
 )
 from engine.compiling.balls import bounding_balls
-from engine.constants import BOUND_SLACK, CONTACT, EDGE_SLIDE, FLIGHT_STEPS, ON_WALKABLE
+from engine.constants import BOUND_CORNER, BOUND_SLACK, CONTACT, EDGE_SLIDE, FLIGHT_STEPS, ON_WALKABLE
 from engine.layout import PLAN
 
 if TYPE_CHECKING:
@@ -176,10 +176,21 @@ THINGS = {
     ("gap", "passed"), [(2.0 * BOUND_SLACK, 1), (0.5 * BOUND_SLACK, 0), (0.001, 0), (-0.01, 0)]
 )
 def test_objects_out_of_reach_are_passed_over(name: str, gap: float, passed: int) -> None:
-    """By the ball about them, the mover's radius and slack, wherever a sub-step ends."""
+    """By the ball about them, the mover's corner and slack, wherever a sub-step ends."""
     world = world_of(triangle(50.0, -20.0), objects=[THINGS[name]])
-    move = stride(mover(EDGE_SLIDE), 3.0 - 1.0 - R - gap - STRIDE, 0.0)
+    move = stride(mover(EDGE_SLIDE), 3.0 - 1.0 - BOUND_CORNER * R - gap - STRIDE, 0.0)
     assert min(taken(world, move, Stage.OBJECTS), 1) == passed
+
+
+@pytest.mark.parametrize("state", [EDGE_SLIDE, EDGE_SLIDE | CONTACT | ON_WALKABLE], ids=["flies", "walks"])
+@pytest.mark.parametrize("stage", [Stage.OBJECTS, Stage.FLIGHT])
+def test_a_low_cylinder_is_hit_beside_its_edge(state: int, stage: Stage) -> None:
+    """Level and upright distance are compared one by one: a sphere reaches farther there than it is large."""
+    disc = Obstacle(at(3.0, 0.0, 0.0), cylspheres=[(0.0, 0.0, 0.0, 0.1, 0.02)])
+    world = world_of(triangle(50.0, -20.0), objects=[disc])
+    move = stride(mover(state), 3.0 - 0.1 - R + 0.01 - STRIDE, R)
+    assert resolve(world, move, plan=Plan.none())["step_up_normal"].tolist() == [-1.0, 0.0, 0.0]
+    assert taken(world, move, stage) == 0
 
 
 @pytest.mark.parametrize(("height", "passed"), [(0.1, 1), (0.5 * BOUND_SLACK, 0), (0.0, 0), (-0.01, 0)])
