@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 import pytest
+from grazing_moves import grazing_moves, hall, littered
 from random_moves import random_moves, world_at
 
 from conformance.strategies.worlds.sites import SITES
@@ -19,6 +20,8 @@ WORK = {"nodes_visited", "polygons_tested", "cells_listed", "objects_tested", "s
 """Fields that count work, and so differ."""
 QUERIES = 1_000
 """In each site; with its seven plans in all sites more than 50,000."""
+GRAZES, HALL_GRAZES = 1_000, 3_000
+"""In each site, and in the hall; few of the latter are far enough from everything to be flights."""
 
 
 def answers(records: Any) -> list[bytes]:
@@ -36,6 +39,16 @@ def resolved(world: World, rows: Rows, plan: Plan) -> Rows:
         return answers
 
 
+def assert_alike(world: World, rows: Rows) -> None:
+    """Assert that no set of shortcuts changes an answer, and that none but those of the set are taken."""
+    without = answers(resolved(world, rows, Plan.none()))
+    for skip in (*Stage, Plan().skip):
+        short = resolved(world, rows, Plan(skip=skip))
+        assert answers(short) == without
+        counts = zip(Stage, short["skipped"].sum(axis=0), strict=True)
+        assert all(stage in skip for stage, count in counts if count)
+
+
 def queries_of(name: str) -> Rows:
     """Return random moves in a site; the seed is the site's own."""
     return random_moves(name, np.random.default_rng(sorted(SITES).index(name)), QUERIES)
@@ -49,13 +62,25 @@ def test_there_are_sites() -> None:
 @pytest.mark.parametrize("name", sorted(SITES))
 def test_moves_are_answered_alike(name: str) -> None:
     """In every site, with every set of shortcuts, on every bit of every output; some are taken."""
-    world, rows = world_at(name), queries_of(name)
-    without = answers(resolved(world, rows, Plan.none()))
-    for skip in (*Stage, Plan().skip):
-        short = resolved(world, rows, Plan(skip=skip))
-        assert answers(short) == without
-        counts = zip(Stage, short["skipped"].sum(axis=0), strict=True)
-        assert all(stage in skip for stage, count in counts if count)
+    assert_alike(world_at(name), queries_of(name))
+
+
+@pytest.mark.parametrize("name", sorted(SITES))
+def test_what_hardly_touches_is_answered_alike(name: str) -> None:
+    """A bound that is too small by a part of a radius shows here, and hardly ever in moves at random."""
+    ground = littered(name)
+    assert_alike(ground.world, grazing_moves(ground, np.random.default_rng(5), GRAZES))
+
+
+def test_who_flies_past_things_is_answered_alike() -> None:
+    """In a hall with room to fly in, where every second move takes a shortcut and many are stopped."""
+    rows = grazing_moves(hall(), np.random.default_rng(5), HALL_GRAZES)
+    assert_alike(hall().world, rows)
+    found = resolved(hall().world, rows, Plan())
+    assert 0.2 < np.mean(found["collision_normal_valid"] != 0.0) < 0.8
+    skipped = dict(zip(Stage, (found["skipped"] > 0.0).sum(axis=0), strict=True))
+    assert skipped[Stage.FLIGHT] > 20
+    assert skipped[Stage.OBJECTS] > 0.5 * HALL_GRAZES
 
 
 def test_every_shortcut_is_taken_somewhere() -> None:

@@ -60,25 +60,26 @@ def random_moves(name: str, rng: Generator, count: int) -> Rows:
     starts += [_over_land(block, rng) for block in place.world["landblocks"]]
     starts += [_at_thing(thing, rng) for thing in place.world["objects"]]
     rows = np.zeros(count, dtype=at.QUERY_DTYPE)
-    _give_mover(rows, rng)
+    give_mover(rows, rng)
     for index, draw in enumerate(rng.integers(len(starts), size=count)):
         cell, origin = starts[draw]()
         rows["start"][index, 0] = rows["end"][index, 0] = cell
         rows["start"][index, -3:] = origin
         rows["begin_cell"][index] = world.cell_index(int(cell))
-    rows["start"][:, 1:5], rows["end"][:, 1:5] = _rotations(rng, count), _rotations(rng, count)
+    rows["start"][:, 1:5], rows["end"][:, 1:5] = rotations(rng, count), rotations(rng, count)
     ways = rng.normal(size=(count, 3)) * (1.0, 1.0, 0.4)
     ways *= rng.uniform(0.0, LONGEST, size=(count, 1)) / np.linalg.norm(ways, axis=1, keepdims=True)
-    rows["end"][:, -3:] = _single(rows["start"][:, -3:] + ways)
+    rows["end"][:, -3:] = single(rows["start"][:, -3:] + ways)
     inside: Rows = rows[rows["begin_cell"] != at.NO_CELL]
     return inside
 
 
-def _give_mover(rows: Rows, rng: Generator) -> None:
+def give_mover(rows: Rows, rng: Generator) -> None:
+    """Make the movers of rows humans of several sizes, in every state, some of them falling or sliding."""
     count = len(rows)
     rows["num_sphere"] = rng.integers(1, 3, size=count)
     rows["spheres"] = SPHERES
-    rows["scale"] = _single(rng.choice([0.25, 0.5, 1.0, 1.0, 1.7], size=count))
+    rows["scale"] = single(rng.choice([0.25, 0.5, 1.0, 1.0, 1.7], size=count))
     rows["state"] = rng.choice(STATES, size=count)
     rows["step_up_height"], rows["step_down_height"] = np.float32(0.6), 1.5
     rows["ethereal"] = rng.random(count) < 0.1
@@ -104,7 +105,7 @@ def _in_cell(cell: Any, world: World, rng: Generator) -> Any:
     def draw() -> tuple[float, Floats]:
         local = rng.uniform(low, high)
         turned = local + 2.0 * np.cross(axis, np.cross(axis, local) + w * local)
-        return float(cell["id"]), _single(turned + np.array(cell["pose"]["origin"]))
+        return float(cell["id"]), single(turned + np.array(cell["pose"]["origin"]))
 
     return draw
 
@@ -116,7 +117,7 @@ def _over_land(block: Any, rng: Generator) -> Any:
         x, y = rng.uniform(0.0, 192.0, size=2)
         i, j = int(x // 24.0), int(y // 24.0)
         z = heights[i : i + 2, j : j + 2].max() + rng.uniform(-1.0, 3.0)
-        return float((block["block"] << 16) + 8 * i + j + 1), _single(np.array([x, y, z]))
+        return float((block["block"] << 16) + 8 * i + j + 1), single(np.array([x, y, z]))
 
     return draw
 
@@ -125,17 +126,18 @@ def _at_thing(thing: Any, rng: Generator) -> Any:
     pose = thing["pose"]
 
     def draw() -> tuple[float, Floats]:
-        return float(pose["cell"]), _single(np.array(pose["origin"]) + rng.uniform(-3.0, 3.0, size=3))
+        return float(pose["cell"]), single(np.array(pose["origin"]) + rng.uniform(-3.0, 3.0, size=3))
 
     return draw
 
 
-def _rotations(rng: Generator, count: int) -> Floats:
+def rotations(rng: Generator, count: int) -> Floats:
     """Return quaternions: half of them yaws, the others anything."""
     quaternions = rng.normal(size=(count, 4))
     quaternions[: count // 2, 1:3] = 0.0
-    return _single(quaternions / np.linalg.norm(quaternions, axis=1, keepdims=True))
+    return single(quaternions / np.linalg.norm(quaternions, axis=1, keepdims=True))
 
 
-def _single(values: Any) -> Floats:
+def single(values: Any) -> Floats:
+    """Return numbers as rows hold them: rounded to float32."""
     return np.asarray(values, dtype=np.float32).astype(np.float64)
