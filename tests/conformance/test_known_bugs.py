@@ -55,6 +55,7 @@ NEIGHBOURS = {
     "cell-list-unpruned": "bug-building-across-border",
     "terrain-split-decimal": "bug-building-across-border",
     "cylinder-step-up-unrotated": "cylinder-walker-steps-upon",
+    "cylinder-by-bounds": "cylinder-walker-steps-upon",
     "sphere-landing-dry": "sphere-step-down-onto",
     "shape-fall-through": "object-hit-is-recorded",
 }

@@ -20,6 +20,13 @@ _PARTS_FIRST: Final = """\
     r = TransitionState.OK
 """
 
+_HALF: Final = "    half = self.height * 0.5\n"
+_IN_BOUNDS: Final = """\
+    aside = disp.x * disp.x + disp.y * disp.y + (half - disp.z) ** 2
+    if aside > ((self.radius * self.radius + half * half) ** 0.5 + check_pos.radius) ** 2:
+        return False
+"""
+
 BUGS: Final = (
     KnownBug(
         "cylinder-step-up-unrotated",
@@ -28,6 +35,15 @@ BUGS: Final = (
         (Edit(CylSphere, "step_sphere_up", (("path.localspace_pos.localtoglobalvec(cn)", "cn"),)),),
         case="bug-cylinder-step-up-unrotated",
         output="step_up_normal.x",
+    ),
+    KnownBug(
+        "cylinder-by-bounds",
+        "a cylinder is passed over where the ball about it and the sphere are apart",
+        "level and upright distance are compared one by one, so that at the edge a sphere reaches farther"
+        " than its radius (07 10.1)",
+        (Edit(CylSphere, "collides_with_sphere", ((_HALF, _HALF + _IN_BOUNDS),)),),
+        case="world-low-cylinder-beside-its-edge",
+        output="contact_plane.d",
     ),
     KnownBug(
         "sphere-landing-dry",
