@@ -19,7 +19,7 @@ from engine.kernels.path import add_offset_to_check_pos, entered_sphere, set_wal
 from engine.kernels.plane import plane_localtoglobal
 from engine.kernels.position import position_localtoglobalvec
 from engine.kernels.rounding import f32
-from engine.kernels.vector import load, load_four
+from engine.kernels.vector import centre, load, load_four
 from engine.layout import (
     BLDG_CHECK,
     CHECK_POS,
@@ -108,8 +108,7 @@ def _find_ground(
     """
     up = load(s, LOCALSPACE_Z)
     if no_ground_near(wf, wi, s, root, sphere, up):
-        x, y, z, _ = sphere
-        return NO_POLYGON, (x, y, z)
+        return NO_POLYGON, centre(sphere)
     return find_walkable(wf, wi, s, root, sphere, movement, up)
 
 

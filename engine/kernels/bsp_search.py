@@ -9,6 +9,7 @@ from engine.kernels.bsp_poly import sphere_intersects_poly
 from engine.kernels.compile import entry, inlined
 from engine.kernels.polygon_adjust import polygon_adjust_sphere_to_poly
 from engine.kernels.rounding import f32
+from engine.kernels.vector import centre
 
 if TYPE_CHECKING:
     from engine.kernels.types import Array, Ints, Sphere, Vector
@@ -54,8 +55,7 @@ def adjust_to_plane(
         n += 1
         hi = t
         if n >= ADJUST_TRIES:
-            x, y, z, _ = sphere
-            return False, (x, y, z)
+            return False, centre(sphere)
     while n < ADJUST_TRIES:
         mid = (lo + hi) * 0.5
         sphere = _place(mid, movement, begin, r)
@@ -67,5 +67,4 @@ def adjust_to_plane(
         if hi - lo < ADJUST_BRACKET:
             break
         n += 1
-    x, y, z, _ = _place(lo, movement, begin, r)
-    return True, (x, y, z)
+    return True, centre(_place(lo, movement, begin, r))

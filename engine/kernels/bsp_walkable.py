@@ -14,6 +14,7 @@ from engine.kernels.indexing import unsigned
 from engine.kernels.polygon import polygon_walkable_hits_sphere
 from engine.kernels.polygon_adjust import polygon_adjust_sphere_to_plane
 from engine.kernels.polygon_support import polygon_check_small_walkable
+from engine.kernels.vector import centre
 from engine.layout import (
     NO_POLYGON,
     NODES_VISITED,
@@ -97,8 +98,7 @@ def find_walkable(
         top -= 1
         node = int(s[unsigned(top)])
     s[NODES_VISITED] += nodes
-    x, y, z, _ = sphere
-    return poly, (x, y, z)
+    return poly, centre(sphere)
 
 
 @inlined

@@ -26,7 +26,7 @@ from engine.kernels.polygon import (
 )
 from engine.kernels.polygon_adjust import polygon_adjust_sphere_to_plane
 from engine.kernels.polygon_edges import HIT, MISS
-from engine.kernels.vector import store
+from engine.kernels.vector import centre, store
 from engine.layout import (
     ABREAST,
     CONTACT_POINT,
@@ -187,7 +187,6 @@ def find_walkable_on(
             node, top = descend(wf, wi, s, node, sphere, top)
             continue
         if top == wi[WORLD_STACK]:
-            x, y, z, _ = sphere
-            return poly, (x, y, z)
+            return poly, centre(sphere)
         top -= 1
         node = int(s[unsigned(top)])

@@ -12,7 +12,7 @@ from engine.kernels.rounding import f32
 from engine.layout import MATRIX, ORIGIN, QUATERNION
 
 if TYPE_CHECKING:
-    from engine.kernels.types import Array, Quaternion, Vector
+    from engine.kernels.types import Array, Quaternion, Sphere, Vector
 
 
 @inlined
@@ -35,6 +35,13 @@ def normalize_check_small(x: float, y: float, z: float) -> tuple[bool, float, fl
         return True, x, y, z
     inv = 1.0 / m
     return False, f32(inv * x), f32(inv * y), f32(inv * z)
+
+
+@inlined
+def centre(sphere: Sphere) -> Vector:
+    """Return where a sphere is."""
+    x, y, z, _ = sphere
+    return x, y, z
 
 
 @inlined
