@@ -29,6 +29,7 @@ from engine.kernels.sharing import (
     SHARE_REORDERED,
 )
 from engine.probes import note_reordered
+from engine.processors import Whereabouts, processor
 from engine.tracing import is_recording
 
 if TYPE_CHECKING:
@@ -129,11 +130,17 @@ class _Task:
     ----------
     work, share
         As those of `together`.
+
+    Attributes
+    ----------
+    asked_on : int
+        Number of the processor on which it was asked for.
     """
 
     def __init__(self, work: Callable[[Ints], None], share: Ints) -> None:
         self._work: Final = work
         self._share: Final = share
+        self.asked_on: Final = processor()
         self._has_begun = False
         self._at_work: Final = Lock()
         self._at_work.acquire()
@@ -167,5 +174,8 @@ def _helpers(_process: int) -> SimpleQueue[_Task]:
 
 
 def _help(tasks: SimpleQueue[_Task]) -> None:
+    whereabouts = Whereabouts()
     while True:
-        tasks.get().do()
+        task = tasks.get()
+        whereabouts.leave(task.asked_on)
+        task.do()
