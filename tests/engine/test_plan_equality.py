@@ -20,7 +20,7 @@ WORK = {"nodes_visited", "polygons_tested", "cells_listed", "objects_tested", "s
 """Fields that count work, and so differ."""
 QUERIES = 1_000
 """In each site; with its seven plans in all sites more than 50,000."""
-GRAZES, HALL_GRAZES = 1_000, 3_000
+GRAZES, HALL_GRAZES = 1_000, 6_000
 """In each site, and in the hall; few of the latter are far enough from everything to be flights."""
 
 

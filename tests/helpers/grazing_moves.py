@@ -151,10 +151,11 @@ def _aim(row: Any, ground: Ground, shape: Grazed, rng: Generator) -> None:
 def _give_other_sizes(rows: Rows, rng: Generator) -> None:
     """Make a third of the movers smaller or larger than people."""
     other = rng.random(len(rows)) < 0.3
-    radii = np.float32(2.0) ** rng.uniform(SMALLEST, LARGEST, size=other.sum()).astype(np.float32)
+    size = (int(other.sum()), 1)
+    radii = 2.0 ** rng.uniform(SMALLEST, LARGEST, size=size)
     spheres = rows["spheres"][other]
-    spheres[:, 0, 2:] = radii[:, np.newaxis] * (rng.integers(2), 1)
-    spheres[:, 1, 2:] = radii[:, np.newaxis] * (np.float32(2.5), np.float32(rng.uniform(0.3, 1.5)))
+    spheres[:, 0, 2:] = single(radii * np.hstack([rng.integers(2, size=size), np.ones(size)]))
+    spheres[:, 1, 2:] = single(radii * np.hstack([np.full(size, 2.5), rng.uniform(0.3, 1.5, size=size)]))
     rows["spheres"][other] = spheres
 
 
