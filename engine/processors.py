@@ -40,7 +40,10 @@ processor: Final = _find_out()
 
 def _allowed() -> frozenset[int]:
     """Return the processors that the calling thread may be on; none if that is not known."""
-    return frozenset(os.sched_getaffinity(0)) if sys.platform == "linux" else frozenset()
+    found: frozenset[int] = frozenset()
+    if sys.platform == "linux":
+        found = frozenset(os.sched_getaffinity(0))
+    return found
 
 
 def _allow(processors: frozenset[int]) -> None:
