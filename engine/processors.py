@@ -58,17 +58,26 @@ class Whereabouts:
     def __init__(self) -> None:
         self._everywhere: frozenset[int] = frozenset()
         self._chosen: frozenset[int] | None = None
+        self._may_move = True
 
     def leave(self, occupied: int) -> None:
         """Go to any other processor that is allowed, if the calling thread is on this one.
+
+        Who is refused once, as in a sandbox, stays for good.
 
         Parameters
         ----------
         occupied : int
             Number of the processor that somebody else is at work on, or `UNKNOWN`.
         """
-        if occupied == UNKNOWN or processor() != occupied:
+        if not self._may_move or occupied == UNKNOWN or processor() != occupied:
             return
+        try:
+            self._go_elsewhere(occupied)
+        except OSError:
+            self._may_move = False
+
+    def _go_elsewhere(self, occupied: int) -> None:
         allowed = _allowed()
         if allowed != self._chosen:
             self._everywhere = allowed

@@ -77,6 +77,23 @@ def test_what_somebody_else_allows_counts(monkeypatch: pytest.MonkeyPatch) -> No
     assert machine.allowed == {3}
 
 
+@pytest.mark.parametrize("call", ["_allowed", "_allow"])
+def test_who_is_refused_stays_for_good(monkeypatch: pytest.MonkeyPatch, call: str) -> None:
+    """A sandbox may forbid either call; the helper helps where it is."""
+    machine = Machine(monkeypatch, {0, 1})
+    refused: list[object] = []
+
+    def refuse(*arguments: object) -> None:
+        refused.append(arguments)
+        raise PermissionError(1, "not permitted")
+
+    monkeypatch.setattr(processors, call, refuse)
+    whereabouts = Whereabouts()
+    whereabouts.leave(0)
+    whereabouts.leave(0)
+    assert (machine.on, len(refused)) == (0, 1)
+
+
 @pytest.mark.skipif(sys.platform != "linux", reason="only Linux tells processors")
 def test_a_real_thread_leaves_its_processor() -> None:
     """On a machine with more than one."""
