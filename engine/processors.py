@@ -12,6 +12,7 @@ from __future__ import annotations
 import ctypes
 import os
 import sys
+from threading import local
 from typing import TYPE_CHECKING, Final
 
 if TYPE_CHECKING:
@@ -52,8 +53,8 @@ def _allow(processors: frozenset[int]) -> None:
         os.sched_setaffinity(0, processors)
 
 
-class Whereabouts:
-    """Where a helper may be; to be asked by that thread alone."""
+class Whereabouts(local):
+    """Where helpers may be; each thread has its own."""
 
     def __init__(self) -> None:
         self._everywhere: frozenset[int] = frozenset()
@@ -85,3 +86,7 @@ class Whereabouts:
         if elsewhere:
             _allow(elsewhere)
             self._chosen = elsewhere
+
+
+WHEREABOUTS: Final = Whereabouts()
+"""Those of all threads: one that had two would not know what it has chosen itself."""

@@ -29,7 +29,7 @@ from engine.kernels.sharing import (
     SHARE_REORDERED,
 )
 from engine.probes import note_reordered
-from engine.processors import Whereabouts, processor
+from engine.processors import WHEREABOUTS, processor
 from engine.tracing import is_recording
 
 if TYPE_CHECKING:
@@ -130,24 +130,20 @@ class _Task:
     ----------
     work, share
         As those of `together`.
-
-    Attributes
-    ----------
-    asked_on : int
-        Number of the processor on which it was asked for.
     """
 
     def __init__(self, work: Callable[[Ints], None], share: Ints) -> None:
         self._work: Final = work
         self._share: Final = share
-        self.asked_on: Final = processor()
+        self._asked_on: Final = processor()
         self._has_begun = False
         self._at_work: Final = Lock()
         self._at_work.acquire()
         self._error: BaseException | None = None
 
     def do(self) -> None:
-        """Work; an error is kept for who waits."""
+        """Work, elsewhere than who has asked for it; an error is kept for who waits."""
+        WHEREABOUTS.leave(self._asked_on)
         self._has_begun = True
         try:
             self._work(self._share)
@@ -174,8 +170,5 @@ def _helpers(_process: int) -> SimpleQueue[_Task]:
 
 
 def _help(tasks: SimpleQueue[_Task]) -> None:
-    whereabouts = Whereabouts()
     while True:
-        task = tasks.get()
-        whereabouts.leave(task.asked_on)
-        task.do()
+        tasks.get().do()

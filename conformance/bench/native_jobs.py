@@ -9,8 +9,7 @@ from concurrent.futures import ThreadPoolExecutor
 from dataclasses import replace
 from functools import partial
 from pathlib import Path
-from threading import local
-from typing import TYPE_CHECKING, Any, Final
+from typing import TYPE_CHECKING, Any
 from weakref import WeakKeyDictionary
 
 import numpy as np
@@ -23,7 +22,7 @@ from conformance.bench.timing import Answer, Job
 from conformance.bench.work import batches
 from engine.coherence import order_of
 from engine.kernels.order import SPHERES
-from engine.processors import Whereabouts, processor
+from engine.processors import WHEREABOUTS, processor
 
 if TYPE_CHECKING:
     from collections.abc import MutableMapping, Sequence
@@ -114,23 +113,13 @@ def _sorted_job(maker: Maker, work: KernelWork) -> Job:
     return replace(job, answer=answer)
 
 
-class _OwnPlace(local):
-    """What each thread has of its own: where it may be, as the engine's helpers have it."""
-
-    def __init__(self) -> None:
-        self.whereabouts = Whereabouts()
-
-
-_OWN: Final = _OwnPlace()
-
-
 def _shared_job(makers: Sequence[Maker], others: ThreadPoolExecutor, work: KernelWork) -> Job:
     """Make a job of equal parts of some work, of which the calling thread does the first."""
     parts = batches(len(work), -(-len(work) // len(makers)))
     jobs = [maker(work.part(*part)) for maker, part in zip(makers, parts, strict=True)]
 
     def help_with(job: Job, asked_on: int) -> None:
-        _OWN.whereabouts.leave(asked_on)
+        WHEREABOUTS.leave(asked_on)
         job.run()
 
     def run() -> None:
