@@ -3,8 +3,9 @@
 What a query has read, and how its branches went, is then at hand for the next: neither is if that is asked
 somewhere else. A query is put into one of some thousand buckets by where it is asked; buckets that are near
 in space are near in number (a Morton curve), and within one, queries stay in the order in which they came.
-The buckets begin anew every 128 metres: no bounds have to be found first, nothing depends on how far a
-batch spreads, and who meets a stranger in his bucket only loses a little time.
+The buckets begin anew every 128 metres, or, since they are wider for a batch that spreads farther, every
+1,024 at most; of places on the map that are still farther apart each has the narrow ones. A few of the rows
+tell, and who meets a stranger in his bucket only loses a little time.
 """
 
 from __future__ import annotations
@@ -48,8 +49,11 @@ numbers as there are buckets."""
 BUCKETS: Final = frozen(1 << (2 * ACROSS + UPWARDS))
 """How many there are."""
 
+_MASK: Final = frozen((1 << ACROSS) - 1)
 WIDTH: Final = 2.0
-"""Of a bucket along x and y, metres: about a mover's reach."""
+"""Of a bucket along x and y, metres, unless the batch is wider than all of them: about a mover's reach."""
+MOST_DOUBLINGS: Final = frozen(3)
+"""How often that is doubled at most: a bucket of 16 metres is hardly larger than what a query reads."""
 HEIGHT: Final = 4.0
 """Of a bucket along z, metres."""
 _BLOCK: Final = frozen(int(BLOCK_EDGE / WIDTH))
@@ -69,6 +73,8 @@ EARLY: Final = frozen(12)
 _FAR: Final = 2.0**40
 """Metres, and a multiple of all periods of buckets: added to a number that is nearer it makes it positive, so
 that its whole part is the whole number below. What is farther, or no number, is at 0."""
+_LIMIT: Final = frozen(1 << 60)
+"""Beyond all places, in widths."""
 _CONTACT_VALID: Final = frozen(Q_COLLISION_INFO - COLLISION_INFO + CONTACT_VALID)
 """Whether a query's mover stands on something."""
 
@@ -94,31 +100,60 @@ def _spread(bits: int) -> int:
 
 
 @inlined
-def _bucket(east: int, north: int, z: float) -> int:
-    """Return the bucket of a place, given in widths to the east and to the north, and in metres upwards."""
-    mask = (1 << ACROSS) - 1
-    both = _spread((east & mask) | (north & mask) << 32)
+def _place_of_pose(row: Array, cell: int, origin: int) -> tuple[int, int, float]:
+    """Return the place of a pose: a cell id, of whose landblock the origin's axes are."""
+    block = _whole(row[cell]) >> 16
+    east = _BLOCK * (block >> 8) + _whole(row[origin] / WIDTH)
+    north = _BLOCK * block + _whole(row[origin + 1] / WIDTH)
+    return east, north, row[origin + 2]
+
+
+@inlined
+def _place_of(kind: int, row: Array) -> tuple[int, int, float]:
+    """Return where a row is asked: in widths to the east and to the north, and in metres upwards."""
+    if kind == SPHERES:
+        return _whole(row[0] / WIDTH), _whole(row[1] / WIDTH), row[2]
+    if kind == BODIES:
+        return _place_of_pose(row, B_POSITION, B_ORIGIN)
+    return _place_of_pose(row, Q_END, Q_END + POSE_ORIGIN)
+
+
+@inlined
+def _bucket_of(kind: int, row: Array, doublings: int) -> int:
+    """Return the bucket of a row, of buckets whose width has been doubled so often."""
+    east, north, z = _place_of(kind, row)
+    both = _spread((east >> doublings & _MASK) | (north >> doublings & _MASK) << 32)
     level = _whole(z / HEIGHT) & ((1 << UPWARDS) - 1)
     return ((both | both >> 31) & ((1 << 2 * ACROSS) - 1)) << UPWARDS | level
 
 
 @inlined
-def _bucket_of_pose(row: Array, cell: int, origin: int) -> int:
-    """Return the bucket of a pose: a cell id, of whose landblock the origin's axes are."""
-    block = _whole(row[cell]) >> 16
-    east = _BLOCK * (block >> 8) + _whole(row[origin] / WIDTH)
-    north = _BLOCK * block + _whole(row[origin + 1] / WIDTH)
-    return _bucket(east, north, row[origin + 2])
+def _breadth(kind: int, rows: Array, northwards: bool) -> int:
+    """Return about how far rows spread to the east, or to the north, in widths.
+
+    The outermost on each side does not count: somebody may be lost.
+    """
+    first = lowest = _LIMIT
+    last = highest = -_LIMIT
+    for i in range(0, len(rows), len(rows) // FEW | 1):
+        east, north, _ = _place_of(kind, rows[unsigned(i)])
+        here = north if northwards else east
+        lowest, first = min(lowest, max(first, here)), min(first, here)
+        highest, last = max(highest, min(last, here)), max(last, here)
+    return highest - lowest
 
 
 @inlined
-def _bucket_of(kind: int, row: Array) -> int:
-    """Return the bucket of a row."""
-    if kind == SPHERES:
-        return _bucket(_whole(row[0] / WIDTH), _whole(row[1] / WIDTH), row[2])
-    if kind == BODIES:
-        return _bucket_of_pose(row, B_POSITION, B_ORIGIN)
-    return _bucket_of_pose(row, Q_END, Q_END + POSE_ORIGIN)
+def _doublings(kind: int, rows: Array) -> int:
+    """Return how often a bucket's width is doubled, so that buckets do not begin anew within the batch.
+
+    A batch that is too wide for that is taken for one of several places far from each other.
+    """
+    breadth = max(_breadth(kind, rows, False), _breadth(kind, rows, True))
+    for doublings in range(MOST_DOUBLINGS + 1):
+        if breadth >> doublings <= _MASK:
+            return doublings
+    return 0
 
 
 @inlined
@@ -149,7 +184,7 @@ def _are_worth_it(kind: int, rows: Array) -> bool:
 
 
 @inlined
-def _are_apart(kind: int, rows: Array, columns: Order) -> bool:
+def _are_apart(kind: int, rows: Array, columns: Order, doublings: int) -> bool:
     """Say, from a sample of the rows, whether they are not near each other as they lie.
 
     `columns` is room for a mark on each column of buckets.
@@ -158,26 +193,26 @@ def _are_apart(kind: int, rows: Array, columns: Order) -> bool:
         columns[c] = 0
     found = 0
     for i in range(0, len(rows), len(rows) // SAMPLE | 1):
-        column = unsigned(_bucket_of(kind, rows[unsigned(i)]) >> UPWARDS)
+        column = unsigned(_bucket_of(kind, rows[unsigned(i)], doublings) >> UPWARDS)
         found += columns[column] == 0
         columns[column] = 1
     return found >= (FEWEST_OF_CALLS if kind == CALLS else FEWEST)
 
 
 @inlined
-def _pays(kind: int, rows: Array, buckets: Order) -> bool:
+def _pays(kind: int, rows: Array, buckets: Order, doublings: int) -> bool:
     """Say whether it pays to sort the rows."""
-    return len(rows) >= SMALLEST and _are_worth_it(kind, rows) and _are_apart(kind, rows, buckets)
+    return len(rows) >= SMALLEST and _are_worth_it(kind, rows) and _are_apart(kind, rows, buckets, doublings)
 
 
 @inlined
-def _sort(kind: int, rows: Array, order: Order, own: Order, buckets: Order) -> None:
+def _sort(kind: int, rows: Array, order: Order, own: Order, buckets: Order, doublings: int) -> None:
     """Write the numbers of the rows by their buckets: a counting sort."""
     for b in range(BUCKETS):
         buckets[b] = 0
     for i in range(len(rows)):
         _bring_place(kind, rows, i + EARLY)
-        bucket = unsigned(_bucket_of(kind, rows[unsigned(i)]))
+        bucket = unsigned(_bucket_of(kind, rows[unsigned(i)], doublings))
         own[unsigned(i)] = bucket
         buckets[bucket] += 1
     place = 0
@@ -214,8 +249,9 @@ def put_in_order(kind: int, rows: Array, order: Order, share: Ints) -> None:
     if is_first(share):
         count = len(rows)
         own, buckets = order[count : 2 * count], order[2 * count :]
-        if _pays(kind, rows, buckets):
-            _sort(kind, rows, order, own, buckets)
+        doublings = _doublings(kind, rows)
+        if _pays(kind, rows, buckets, doublings):
+            _sort(kind, rows, order, own, buckets, doublings)
             share[SHARE_REORDERED] = count
         else:
             for i in range(count):

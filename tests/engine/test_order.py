@@ -91,6 +91,38 @@ def test_who_is_in_one_bucket_is_near() -> None:
     assert np.median(apart.max(axis=1)) < 3.0
 
 
+def widest_bucket(spheres: Array) -> float:
+    """Return how far from each other those are at most that are in one bucket, along x or y."""
+    order, own = order_at(SPHERES, spheres)
+    apart = np.abs(np.diff(spheres[order, :2], axis=0)).max(axis=1)
+    return float(apart[np.diff(own[order]) == 0].max())
+
+
+@pytest.mark.parametrize(("side", "width"), [(120.0, 2.0), (240.0, 4.0), (480.0, 8.0), (960.0, 16.0)])
+def test_buckets_are_as_wide_as_the_batch_needs(side: float, width: float) -> None:
+    """Nobody from the other end is among those that are near."""
+    assert 0.9 * width < widest_bucket(spheres_within(side, 20 * COUNT)) < width
+
+
+def test_one_that_is_lost_widens_no_bucket() -> None:
+    """It does not matter which row it is, nor where it is lost."""
+    spheres = spheres_within(60.0)
+    own = order_at(SPHERES, spheres)[1]
+    for lost in range(0, COUNT, 62):
+        for where in (-700.0, 700.0, np.inf, np.nan):
+            others = spheres.copy()
+            others[lost, :2] = where
+            found = order_at(SPHERES, others)[1]
+            assert np.array_equal(np.delete(found, lost), np.delete(own, lost))
+
+
+def test_places_far_from_each_other_have_narrow_buckets() -> None:
+    """Two dungeons on the map: those of each are as near as if it were alone."""
+    spheres, own = spheres_within(60.0), order_at(SPHERES, spheres_within(60.0))[1]
+    spheres[::3, 0] += 12_800.0
+    assert np.array_equal(order_at(SPHERES, spheres)[1], own)
+
+
 @pytest.mark.parametrize("z", [-3.9, 0.5, 7.0])
 def test_floors_are_kept_apart(z: float) -> None:
     """Four metres are another bucket, also below the block's zero."""
