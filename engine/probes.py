@@ -21,6 +21,11 @@ if TYPE_CHECKING:
 
     from engine.kernels.types import Array
 
+WORK_FIELDS: Final = frozenset(
+    {"nodes_visited", "polygons_tested", "cells_listed", "objects_tested", "skipped"}
+)
+"""Fields of results and of bodies that count work: nothing else depends on shortcuts."""
+
 
 @dataclass(frozen=True, slots=True)
 class Work:
@@ -69,6 +74,23 @@ def work_of(records: Any) -> Work:
     names = ("nodes_visited", "polygons_tested", "objects_tested", "cells_listed")
     counts = [int(rows[name].sum()) if name in (rows.dtype.names or ()) else 0 for name in names]
     return Work(len(rows), *counts, *(int(n) for n in rows["skipped"].sum(axis=0)))
+
+
+def without_work(records: Any) -> dict[str, bytes]:
+    """Return all that records tell but their work: what no shortcut may change.
+
+    Parameters
+    ----------
+    records : records of `engine.layout.RESULT_DTYPE` or `engine.body_layout.BODY_DTYPE`
+        One, or an array of them.
+
+    Returns
+    -------
+    dict of str to bytes
+        The bits of each field.
+    """
+    names = (name for name in records.dtype.names if name not in WORK_FIELDS)
+    return {name: np.ascontiguousarray(records[name]).tobytes() for name in names}
 
 
 def work_of_row(row: Array) -> Work:

@@ -29,8 +29,11 @@ from engine import (
     resolve,
 )
 from engine.plan import FULL_PLAN, NO_PLAN
+from engine.probes import without_work
 
 if TYPE_CHECKING:
+    from collections.abc import Mapping
+
     from engine.geometry import Tree
 
 MOVER: Final = Mover([(0.0, 0.0, 0.48, 0.48)], state=0x103, step_up_height=0.6, step_down_height=1.5)
@@ -38,8 +41,6 @@ BLOCK: Final = 0xA9B4
 LONGEST: Final = 100.0
 """Metres that the mover is asked to go at most, so that an execution stays short."""
 HEIGHTS: Final = 81
-WORK: Final = frozenset({"nodes_visited", "polygons_tested", "cells_listed", "objects_tested", "skipped"})
-"""Fields that count work: shortcuts save it."""
 _IDENTITY: Final = (1.0, 0.0, 0.0, 0.0)
 _DEEPEST: Final = 40
 """Levels of a tree: no longer recursion than Python allows, here or in who walks it."""
@@ -178,7 +179,7 @@ def _move(source: ByteSource, world: World) -> None:
         require(result == slowly, f"with shortcuts {result}, without them {slowly}")
 
 
-def _answer(world: World, move: Move, plan: Plan) -> dict[str, object]:
+def _answer(world: World, move: Move, plan: Plan) -> Mapping[str, object]:
     """Return what is answered but for the work that it took: each field's bytes, or the error."""
     try:
         result = resolve(world, move, plan=plan)
@@ -186,7 +187,7 @@ def _answer(world: World, move: Move, plan: Plan) -> dict[str, object]:
         require(str(error), f"an error without words: {error!r}")
         return {"error": str(error)}
     require(-1 <= int(result["curr_cell"]) < len(world.cell_ids), f"the cell {result['curr_cell']}")
-    return {name: result[name].tobytes() for name in result.dtype.names if name not in WORK}
+    return without_work(result)
 
 
 def _near(number: float) -> float:

@@ -5,8 +5,9 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from conformance.candidates.engine_ops.running import WORK_FIELDS, ShortcutError, demand_same_answer
+from conformance.candidates.engine_ops.running import ShortcutError, demand_same_answer
 from engine import layout as at
+from engine.probes import WORK_FIELDS
 
 ANSWER_FIELDS = [name for name in at.RESULT_DTYPE.names if name not in WORK_FIELDS]
 assert ANSWER_FIELDS, "no field of a result is an answer"

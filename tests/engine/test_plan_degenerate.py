@@ -31,9 +31,10 @@ from engine import (
 )
 from engine.compiling.balls import bounding_balls, planes_of
 from engine.constants import BOUND_MOST
+from engine.probes import without_work
 
 if TYPE_CHECKING:
-    from collections.abc import Sequence
+    from collections.abc import Mapping, Sequence
 
     from hypothesis.strategies import DrawFn
 
@@ -43,7 +44,6 @@ HAS_BSP = 0x10001
 """State of an obstacle that is collided with by its parts."""
 WIDE = (0.0, 0.0, 0.0, 10.0)
 """Sphere about whatever is near the origin."""
-WORK = {"nodes_visited", "polygons_tested", "cells_listed", "objects_tested", "skipped"}
 WARPED = [(-4.0, -4.0, 2.0), (4.0, -4.0, -2.0), (4.0, 4.0, 2.0), (-4.0, 4.0, -2.0)]
 """A square whose corners are 2 m off its plane, z = 0."""
 NEEDLE = [
@@ -58,13 +58,13 @@ SPECK = [(1e-20, 2e-20, 2e-20), (3e-20, 1e-20, 2e-20), (3e-20, 2e-20, 1e-20)]
 """So small a triangle that its normal is infinite."""
 
 
-def answer(world: World, move: Move, plan: Plan) -> dict[str, bytes | str]:
+def answer(world: World, move: Move, plan: Plan) -> Mapping[str, bytes | str]:
     """Return all that is answered but for the work that it took, or the error."""
     try:
         result = resolve(world, move, plan=plan)
     except EngineError as error:
         return {"error": str(error)}
-    return {name: result[name].tobytes() for name in result.dtype.names if name not in WORK}
+    return without_work(result)
 
 
 def skipped(world: World, move: Move) -> list[int]:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 import numpy as np
 import pytest
@@ -11,23 +11,16 @@ from random_moves import random_moves, world_at
 
 from conformance.strategies.worlds.sites import SITES
 from engine import Body, Plan, Pose, Stage, UndeterminedError, body_rows, resolve_many, step_many
+from engine.probes import without_work
 
 if TYPE_CHECKING:
     from engine.query import Rows
     from engine.world import World
 
-WORK = {"nodes_visited", "polygons_tested", "cells_listed", "objects_tested", "skipped"}
-"""Fields that count work, and so differ."""
 QUERIES = 1_000
 """In each site; with its seven plans in all sites more than 50,000."""
 GRAZES, HALL_GRAZES = 1_000, 6_000
 """In each site, and in the hall; few of the latter are far enough from everything to be flights."""
-
-
-def answers(records: Any) -> list[bytes]:
-    """Return all fields that are no counters of work, each as its bytes."""
-    assert set(records.dtype.names) > WORK - {"cells_listed", "objects_tested"}
-    return [np.ascontiguousarray(records[name]).tobytes() for name in records.dtype.names if name not in WORK]
 
 
 def resolved(world: World, rows: Rows, plan: Plan) -> Rows:
@@ -41,10 +34,10 @@ def resolved(world: World, rows: Rows, plan: Plan) -> Rows:
 
 def assert_alike(world: World, rows: Rows) -> None:
     """Assert that no set of shortcuts changes an answer, and that none but those of the set are taken."""
-    without = answers(resolved(world, rows, Plan.none()))
+    without = without_work(resolved(world, rows, Plan.none()))
     for skip in (*Stage, Plan().skip):
         short = resolved(world, rows, Plan(skip=skip))
-        assert answers(short) == without
+        assert without_work(short) == without
         counts = zip(Stage, short["skipped"].sum(axis=0), strict=True)
         assert all(stage in skip for stage, count in counts if count)
 
@@ -109,5 +102,5 @@ def test_bodies_tick_alike(name: str) -> None:
     for _ in range(20):
         step_many(world, short, 0.05, 1)
         step_many(world, full, 0.05, 1, plan=Plan.none())
-        assert answers(short) == answers(full)
+        assert without_work(short) == without_work(full)
     assert not full["skipped"].any()

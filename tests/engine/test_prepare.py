@@ -30,6 +30,7 @@ from engine import (
 )
 from engine import world as world_module
 from engine.compiling import near
+from engine.probes import without_work
 from engine.query import move_rows
 
 if TYPE_CHECKING:
@@ -39,8 +40,6 @@ ENOUGH = near._FEWEST
 """Queries of a world of one polygon."""
 FALL = Move(mover(spheres=2), at(0.0, 0.0, R + 0.0005), CELL, start=at(0.0, 0.0, 0.75))
 """To half a millimetre above the floor: too near for a free flight, and it touches nothing."""
-WORK = {"nodes_visited", "polygons_tested", "cells_listed", "objects_tested", "skipped"}
-"""Fields that count work, and so differ."""
 
 
 def floor_world() -> World:
@@ -61,13 +60,13 @@ def falls(world: World, count: int) -> Rows:
     return np.repeat(move_rows(world, [FALL]), count)
 
 
-def answers(world: World, rows: Rows) -> list[bytes]:
-    """Return all fields of the answers that are no counters of work, each as its bytes."""
+def answers(world: World, rows: Rows) -> dict[str, bytes]:
+    """Return all that is answered but for the work that it took."""
     try:
         results = resolve_many(world, rows)
     except UndeterminedError as error:
         results = error.results
-    return [np.ascontiguousarray(results[name]).tobytes() for name in results.dtype.names if name not in WORK]
+    return without_work(results)
 
 
 def test_a_single_query_makes_none() -> None:

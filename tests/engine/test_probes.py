@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
+import numpy as np
 from engine_scenes import CELL, R, at, floor_and_wall, mover, triangle, world_of
 
 from engine import Move, Plan, resolve, resolve_many
+from engine import layout as of
 from engine.linear_scan import scanning
-from engine.probes import Work, work_of
+from engine.probes import WORK_FIELDS, Work, without_work, work_of
 from engine.query import move_rows
 
 FALL = Move(mover(), at(0.0, 0.0, R - 0.01), CELL, start=at(0.0, 0.0, R + 0.1))
@@ -36,3 +38,17 @@ def test_linear_scans_test_every_polygon_of_every_walk() -> None:
         assert resolve(world, FALL, plan=Plan.none()).tobytes() == expected
     assert scan.walks > 0
     assert scan.polygons == 2 * scan.walks
+
+
+def test_what_is_left_without_work_is_every_other_bit() -> None:
+    """Of one record and of many; a changed counter is not seen, a sign of zero is."""
+    results = np.zeros(3, dtype=of.RESULT_DTYPE)
+    left = without_work(results)
+    assert set(left) == set(of.RESULT_DTYPE.names) - WORK_FIELDS
+    assert set(of.RESULT_DTYPE.names) > WORK_FIELDS
+    for name in WORK_FIELDS:
+        results[name] = 1.0
+    assert without_work(results) == left
+    results["walk_interp"][1] = -0.0
+    assert without_work(results) != left
+    assert without_work(results[0]) == without_work(results[2]) != without_work(results[1])

@@ -9,6 +9,7 @@ import numpy.typing as npt
 from engine_scenes import prepared
 
 from conformance.candidates.engine_ops.worlds import engine_world
+from conformance.strategies.poses import to_world
 from conformance.strategies.worlds.sites import site
 from engine import layout as at
 from engine.constants import (
@@ -99,13 +100,10 @@ def _in_cell(cell: Any, world: World, rng: Generator) -> Any:
     for candidate in world.shapes:
         shape = candidate if candidate.name == cell["geometry"] else shape
     low, high = shape.bounds[:3], shape.bounds[3:]
-    w, x, y, z = cell["pose"]["rotation"]
-    axis = np.array([x, y, z])
 
     def draw() -> tuple[float, Floats]:
-        local = rng.uniform(low, high)
-        turned = local + 2.0 * np.cross(axis, np.cross(axis, local) + w * local)
-        return float(cell["id"]), single(turned + np.array(cell["pose"]["origin"]))
+        x, y, z = rng.uniform(low, high).tolist()
+        return float(cell["id"]), single(to_world(cell["pose"], (x, y, z), 1.0))
 
     return draw
 

@@ -19,6 +19,7 @@ from engine.batch import check_status
 from engine.coherence import AS_ASKED
 from engine.kernels import program
 from engine.plan import FULL_PLAN
+from engine.probes import WORK_FIELDS
 from engine.threads import new_share
 from engine.tracing import runnable
 
@@ -27,10 +28,6 @@ if TYPE_CHECKING:
 
     from engine.world import World
 
-WORK_FIELDS: Final = frozenset(
-    ("nodes_visited", "polygons_tested", "cells_listed", "objects_tested", "skipped")
-)
-"""Fields of records that count work."""
 TRACE_CAPACITY: Final = 1024
 """Room for a trace at first; it grows when a trace turns out to be longer."""
 
