@@ -12,6 +12,7 @@ from engine.body_layout import MAX_RECORDS, STATUS_CROWDED
 from engine.errors import CrowdedError, QueryError, RecursionBoundError, UndeterminedError
 from engine.given import room
 from engine.kernels import program
+from engine.memory import rows_as_numbers
 from engine.object_call import ObjectCall, object_rows
 from engine.plan import CALL_PLAN, FULL_PLAN, Plan, of_calls
 from engine.query import CollisionCall, Move, collision_rows, move_rows
@@ -189,10 +190,9 @@ def _run(
     # Of rows that may only be read Numba would compile everything once more.
     # What it has to be it is, as a rule: for NumPy to find that out takes a tenth of a call of one query.
     plain = rows if rows.flags.carray else np.require(rows, requirements=("C", "W"))
-    queries = plain.view(np.float64).reshape(len(rows), at.QUERY_SIZE)
+    queries = rows_as_numbers(plain)
     results = room(out, at.RESULT_DTYPE, (len(rows),), [queries], "out")
-    answers = results.view(np.float64).reshape(len(rows), at.RESULT_SIZE)
-    given = job, queries, answers
+    given = job, queries, rows_as_numbers(results)
     if answer(world, program.run, lambda: given, len(rows), threads, plan=plan, coherent=coherent):
         check_status(results["status"], results)
     return results

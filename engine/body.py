@@ -13,13 +13,13 @@ from engine.checks import finite, flag, number, optional, record, sequence, whol
 from engine.constants import ACTIVE_TS, DEFAULT_ELASTICITY, DEFAULT_FRICTION, DEFAULT_STATE
 from engine.errors import QueryError
 from engine.float32 import float32_array
+from engine.memory import rows_as_numbers
 from engine.pose import Pose, check_pose, position_row
 from engine.world import CHECK_WORLD
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
-    from engine.kernels.types import Array
     from engine.query import Rows
     from engine.world import World
 
@@ -163,12 +163,6 @@ def body_rows(world: World, bodies: Sequence[Body]) -> Rows:
         _fill_body(row, body, where)
         rows_as_numbers(rows)[index, : at.POSITION_SIZE] = position_row(body.pose, where)
     return rows
-
-
-def rows_as_numbers(rows: Rows) -> Array:
-    """Return records of bodies as kernels see them: the same memory, one row of numbers for each."""
-    numbers: Array = rows.view(np.float64).reshape(len(rows), rows.dtype.itemsize // 8)
-    return numbers
 
 
 def _fill_body(row: Any, body: Body, where: str) -> None:

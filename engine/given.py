@@ -52,8 +52,9 @@ def room(
     plain = given.dtype.names is None or not given.flags.c_contiguous
     if not (given if plain else given.view(np.float64)).flags.carray:
         raise QueryError(where, "not contiguous, not aligned, or not writable")
-    if any(np.may_share_memory(given, one) for one in inputs):
-        raise QueryError(where, "lies in the memory of what is asked")
+    for one in inputs:
+        if np.may_share_memory(given, one):
+            raise QueryError(where, "lies in the memory of what is asked")
     return given
 
 

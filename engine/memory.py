@@ -1,4 +1,4 @@
-"""Arrays that begin where a cache line does."""
+"""Arrays that begin where a cache line does, and records seen as numbers."""
 
 from __future__ import annotations
 
@@ -29,3 +29,19 @@ def aligned(size: int, dtype: npt.DTypeLike) -> npt.NDArray[Any]:
     room = np.empty(8 * size + 2 * CACHE_LINE, dtype=np.uint8)
     first = -room.ctypes.data % CACHE_LINE
     return room[first : first + 8 * size].view(dtype)
+
+
+def rows_as_numbers(records: npt.NDArray[Any]) -> npt.NDArray[np.float64]:
+    """Return records as kernels see them: the same memory, one row of numbers for each.
+
+    Parameters
+    ----------
+    records : ndarray, shape (n,)
+        Contiguous; of nothing but numbers of 8 bytes.
+
+    Returns
+    -------
+    ndarray of float64, shape (n, numbers of a record)
+        Made of the memory at once: a view, given another shape, takes twice as long.
+    """
+    return np.ndarray((len(records), records.dtype.itemsize // 8), np.float64, records)

@@ -11,9 +11,10 @@ from engine import body_layout as of_body
 from engine import layout as at
 from engine.answering import answer
 from engine.batch import check_status
-from engine.body import Body, body_rows, rows_as_numbers
+from engine.body import Body, body_rows
 from engine.errors import QueryError
 from engine.kernels import program
+from engine.memory import rows_as_numbers
 from engine.pose import pose_row
 
 if TYPE_CHECKING:
@@ -96,8 +97,7 @@ def place(
     if cell is not None and given["cell"] == at.NO_CELL:
         raise QueryError("cell", f"{cell:#010x} is not in the world")
     given["slide"], given["do_not_load_cells"] = slide, do_not_load_cells
-    numbers = placements.view(np.float64).reshape(1, int(of_body.PLACEMENT_SIZE))
-    bodies = rows_as_numbers(rows)
+    bodies, numbers = rows_as_numbers(rows), rows_as_numbers(placements)
     if answer(world, program.run, lambda: (program.PLACE, bodies, numbers), 1, 1, coherent=False):
         check_status(rows["status"])
     x, y, z = (float(c) for c in given["pose"][at.POSE_ORIGIN :])

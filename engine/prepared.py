@@ -11,6 +11,7 @@ from engine.batch import check_status
 from engine.coherence import AS_ASKED
 from engine.kernels import program
 from engine.kernels.sharing import LANE_INTS, LANE_NEXT
+from engine.memory import rows_as_numbers
 from engine.plan import FULL_PLAN, Plan, of_calls
 from engine.query import CollisionCall, Move, collision_rows, move_rows
 from engine.threads import new_share
@@ -77,7 +78,7 @@ class Prepared:
             *world.arrays,
             world.new_row(plan=plan),
             job,
-            rows.view(np.float64).reshape(1, at.QUERY_SIZE),
+            rows_as_numbers(rows),
             self._numbers.reshape(1, at.RESULT_SIZE),
             AS_ASKED,
             self._share,

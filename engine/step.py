@@ -9,7 +9,7 @@ import numpy as np
 
 from engine.answering import answer
 from engine.batch import check_status
-from engine.body import Body, body_rows, rows_as_numbers
+from engine.body import Body, body_rows
 from engine.body_layout import BODY_DTYPE
 from engine.constants import CHECK_ETHEREAL_TS, MAX_ELASTICITY, MAX_QUANTUM
 from engine.effort import check_tick
@@ -18,6 +18,7 @@ from engine.float32 import float32_array
 from engine.kernels import program, tick_velocity
 from engine.kernels.tick_gates import MAX_TICKS
 from engine.layout import VECTOR_SIZE
+from engine.memory import rows_as_numbers
 from engine.plan import FULL_PLAN, Plan
 
 if TYPE_CHECKING:

@@ -11,7 +11,6 @@ from conformance.bench.spots import RADIUS, above_floors, beside_walls, near_sur
 from conformance.bench.work import KernelWork, RowWork
 from engine import Body, Pose, body_rows, resolve_many
 from engine import layout as at
-from engine.body import rows_as_numbers
 from engine.constants import (
     ACTIVE_TS,
     CONTACT,
@@ -22,6 +21,7 @@ from engine.constants import (
     ON_WALKABLE_TS,
 )
 from engine.kernels.frame import frame_cache
+from engine.memory import rows_as_numbers
 
 if TYPE_CHECKING:
     from numpy.random import Generator

@@ -12,9 +12,9 @@ from engine_scenes import CELL, floor_and_wall, triangle, world_of
 from engine import Body, CrowdedError, Obstacle, Pose, World, body_rows
 from engine import layout as at
 from engine.batch import check_status
-from engine.body import rows_as_numbers
 from engine.body_layout import MAX_RECORDS
 from engine.kernels.tick_collisions import respond, track_object_collision
+from engine.memory import rows_as_numbers
 
 MISSILE = 0x340 | 0x8
 ETHEREAL = 0x4

@@ -8,7 +8,7 @@ import numpy as np
 from engine_scenes import CELL, R, at, floor_and_wall, world_of
 
 from engine import Body, body_rows
-from engine.body import rows_as_numbers
+from engine.memory import rows_as_numbers
 
 if TYPE_CHECKING:
     from engine.kernels.types import Array

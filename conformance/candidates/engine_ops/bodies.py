@@ -8,9 +8,9 @@ import numpy as np
 
 from conformance.candidates.engine_ops.values import floats, position
 from engine import layout as at
-from engine.body import rows_as_numbers
 from engine.body_layout import BODY_DTYPE
 from engine.constants import DEFAULT_ELASTICITY, DEFAULT_FRICTION, DEFAULT_STATE
+from engine.memory import rows_as_numbers
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
