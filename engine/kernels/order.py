@@ -61,7 +61,8 @@ _BLOCK: Final = frozen(int(BLOCK_EDGE / WIDTH))
 SMALLEST: Final = frozen(1000)
 """Rows that are worth sorting: fewer gain less than it takes to count buckets."""
 FEW: Final = frozen(32)
-"""About so many rows are asked whether they are worth it: a batch of free flights is over in no time."""
+"""About so many rows are asked whether they are worth it, for a batch of free flights is over in no time; and how
+far they spread."""
 SAMPLE: Final = frozen(128)
 """About so many rows are asked where they are. Every n-th is, n being odd: many batches alternate."""
 FEWEST: Final = frozen(16)
