@@ -61,8 +61,8 @@ _BLOCK: Final = frozen(int(BLOCK_EDGE / WIDTH))
 SMALLEST: Final = frozen(1000)
 """Rows that are worth sorting: fewer gain less than it takes to count buckets."""
 FEW: Final = frozen(32)
-"""About so many rows are asked whether they are worth it, for a batch of free flights is over in no time; and how
-far they spread."""
+"""About so many rows are asked whether they are worth it, for a batch of free flights is over in no time; and
+how far they spread."""
 SAMPLE: Final = frozen(128)
 """About so many rows are asked where they are. Every n-th is, n being odd: many batches alternate."""
 FEWEST: Final = frozen(16)
@@ -105,7 +105,7 @@ def _place_of_pose(row: Array, cell: int, origin: int) -> tuple[int, int, float]
     """Return the place of a pose: a cell id, of whose landblock the origin's axes are."""
     block = _whole(row[cell]) >> 16
     east = _BLOCK * (block >> 8) + _whole(row[origin] / WIDTH)
-    north = _BLOCK * block + _whole(row[origin + 1] / WIDTH)
+    north = _BLOCK * (block & 0xFF) + _whole(row[origin + 1] / WIDTH)
     return east, north, row[origin + 2]
 
 

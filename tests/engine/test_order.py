@@ -53,11 +53,11 @@ def spheres_within(side: float, count: int = COUNT) -> Array:
     return np.column_stack([rng.uniform(0.0, side, size=(count, 2)), np.ones(count), np.full(count, 0.5)])
 
 
-def queries_within(side: float) -> Rows:
+def queries_within(side: float, count: int = COUNT) -> Rows:
     """Return queries that end at random places of a square, by movers that stand on something."""
-    rows = np.zeros(COUNT, dtype=of.QUERY_DTYPE)
+    rows = np.zeros(count, dtype=of.QUERY_DTYPE)
     rows["end"][:, 0] = CELL
-    rows["end"][:, -3:] = spheres_within(side)[:, :3]
+    rows["end"][:, -3:] = spheres_within(side, count)[:, :3]
     rows["contact_plane_valid"] = 1.0
     return rows
 
@@ -91,17 +91,29 @@ def test_who_is_in_one_bucket_is_near() -> None:
     assert np.median(apart.max(axis=1)) < 3.0
 
 
-def widest_bucket(spheres: Array) -> float:
+def widest_bucket(kind: int, rows: Array, places: Array) -> float:
     """Return how far from each other those are at most that are in one bucket, along x or y."""
-    order, own = order_at(SPHERES, spheres)
-    apart = np.abs(np.diff(spheres[order, :2], axis=0)).max(axis=1)
+    order, own = order_at(kind, rows)
+    apart = np.abs(np.diff(places[order, :2], axis=0)).max(axis=1)
     return float(apart[np.diff(own[order]) == 0].max())
 
 
 @pytest.mark.parametrize(("side", "width"), [(120.0, 2.0), (240.0, 4.0), (480.0, 8.0), (960.0, 16.0)])
 def test_buckets_are_as_wide_as_the_batch_needs(side: float, width: float) -> None:
     """Nobody from the other end is among those that are near."""
-    assert 0.9 * width < widest_bucket(spheres_within(side, 20 * COUNT)) < width
+    spheres = spheres_within(side, 20 * COUNT)
+    assert 0.9 * width < widest_bucket(SPHERES, spheres, spheres) < width
+
+
+def test_blocks_side_by_side_are_as_wide_as_they_are() -> None:
+    """Queries in four landblocks around a corner, 240 metres each way: buckets of 4 metres."""
+    rows, places = queries_within(240.0, 20 * COUNT), spheres_within(240.0, 20 * COUNT)
+    east, north = (places[:, axis] >= 192.0 for axis in (0, 1))
+    rows["end"][:, 0] += 0x01000000 * east + 0x00010000 * north
+    rows["end"][:, 5] -= 192.0 * east
+    rows["end"][:, 6] -= 192.0 * north
+    for kind in (CALLS, MOVES):
+        assert 3.6 < widest_bucket(kind, numbers(rows), places) < 4.0
 
 
 def test_one_that_is_lost_widens_no_bucket() -> None:
