@@ -7,7 +7,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Final
 
 from conformance import exit_codes
-from conformance.commands.options import UsageError, add_candidate_option, candidate_from
+from conformance.commands.options import UsageError, add_candidate_option, candidate_from, check_candidate
 from conformance.option_types import whole_from
 
 if TYPE_CHECKING:
@@ -71,6 +71,8 @@ def _list(args: argparse.Namespace) -> int:
     from conformance.console import make_console
     from conformance.deviations.known import BadDeviationsError, load_deviations, today
 
+    if args.file is None:
+        check_candidate(args)
     try:
         deviations = load_deviations(args.file, args.candidate)
     except BadDeviationsError as error:

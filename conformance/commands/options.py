@@ -2,12 +2,14 @@
 
 from __future__ import annotations
 
+from contextlib import contextmanager
 from typing import TYPE_CHECKING
 
 from conformance.option_types import positive
 
 if TYPE_CHECKING:
     import argparse
+    from collections.abc import Iterator
 
     from conformance.candidates.base import Candidate
 
@@ -44,14 +46,30 @@ def check_jobs(jobs: int) -> None:
 
 def candidate_from(args: argparse.Namespace) -> Candidate:
     """Make the candidate that ``--candidate`` names; raises `UsageError` if it cannot be made."""
+    from conformance.candidates.registry import make_candidate
+
+    with _usage_errors():
+        return make_candidate(args.candidate, read_timeout=args.read_timeout)
+
+
+def check_candidate(args: argparse.Namespace) -> None:
+    """Raise `UsageError` if there is no candidate of the name that ``--candidate`` gives; make none."""
+    from conformance.candidates.registry import check_spec
+
+    with _usage_errors():
+        check_spec(args.candidate)
+
+
+@contextmanager
+def _usage_errors() -> Iterator[None]:
+    """Turn what is wrong with a candidate's name into a `UsageError`."""
     from conformance.candidates.registry import (
         BadCandidateError,
         MissingExtraError,
         UnknownCandidateError,
-        make_candidate,
     )
 
     try:
-        return make_candidate(args.candidate, read_timeout=args.read_timeout)
+        yield
     except (BadCandidateError, MissingExtraError, UnknownCandidateError) as error:
         raise UsageError(str(error)) from error

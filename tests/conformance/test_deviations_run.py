@@ -138,7 +138,10 @@ def test_a_suggestion(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> Non
     assert capsys.readouterr().out == 'engine: "oracle"\ndeviations: []\n'
 
 
-@pytest.mark.parametrize("words", [["--suggest", "a.yaml"], ["--poses", "1"], ["nowhere.yaml"]])
+@pytest.mark.parametrize(
+    "words",
+    [["--suggest", "a.yaml"], ["--poses", "1"], ["nowhere.yaml"], ["--candidate", "bug:nosuch"]],
+)
 def test_usage(words: list[str], capsys: pytest.CaptureFixture[str]) -> None:
     """What cannot be meant is told."""
     assert main(["deviations", *words]) == 2

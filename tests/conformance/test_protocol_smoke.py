@@ -83,6 +83,8 @@ def test_our_own_bridge_holds_scenes(with_scenes: Path) -> None:
         ("no-ops", "handshake", "no operation is declared"),
         ("unknown-op", "handshake", "bad reply: found unknown operation 'block_ofset'"),
         ("previous", "fresh answers", "block_offset: q2 has the answer of q1, which was asked before"),
+        ("trusting", "unknown operation", "the engine ended with exit status 1 before it replied"),
+        ("eager", "unknown operation", "it has a result"),
         ("sour", "stop", "the engine ended with exit status 4 when it was stopped, expected 0"),
         ("chatty", "stop", "the engine writes on after its last reply: b'bye"),
     ],
@@ -100,6 +102,15 @@ def test_an_engine_that_outlives_the_suite(vectors: Path) -> None:
     findings = smoked(faux_command("outlives"), vectors, seconds=1.0)
     (found,) = wrong(findings)
     assert found[0] == "end of stdin"
+
+
+@pytest.mark.parametrize("mode", ["trusting", "eager"])
+def test_how_to_refuse_is_shown(mode: str, vectors: Path) -> None:
+    """Who takes the operations that are asked for those that were declared is told the reply."""
+    findings = smoked(faux_command(mode), vectors)
+    (found,) = (found for found in findings if found.mark is Mark.WRONG)
+    reason = '{"skipped":{"reason":"no operation no_such_operation"}}'
+    assert found.expected == f"to no_such_operation, beside its seq: {reason}"
 
 
 def test_a_claim_that_does_not_hold(vectors: Path) -> None:
