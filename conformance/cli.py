@@ -85,7 +85,9 @@ def main(argv: Sequence[str] | None = None) -> int:
     """
     tolerate_unprintable()
     parser = _make_parser()
-    args = parser.parse_args(argv)
+    args, unknown = parser.parse_known_args(argv)
+    if unknown:
+        args.refuse(f"unrecognized arguments: {' '.join(unknown)}")
     try:
         code: int = _COMMANDS[args.command].run(args)
     except UsageError as error:
@@ -127,6 +129,7 @@ def _make_parser() -> argparse.ArgumentParser:
             epilog=f"examples:\n{examples}",
             formatter_class=argparse.RawDescriptionHelpFormatter,
         )
+        subparser.set_defaults(refuse=subparser.error)
         command.configure(subparser)
     return parser
 

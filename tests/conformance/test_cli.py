@@ -276,3 +276,16 @@ def test_export_writes_what_verify_reads(tmp_path: Path, capsys: pytest.CaptureF
 def test_rerun_commands_quote_paths_with_spaces() -> None:
     """A path is one argument in every shell."""
     assert verify.quoted(Path("a b.jsonl")) == '"a b.jsonl"'
+
+
+@pytest.mark.parametrize("arguments", [["list", "--bogus"], ["list", "here", "--bogus"]])
+def test_an_unknown_option_is_told_with_those_of_its_command(
+    arguments: list[str], capsys: pytest.CaptureFixture[str]
+) -> None:
+    """Not with those of all commands, among which the right one is not to be found."""
+    with pytest.raises(SystemExit) as stop:
+        cli.main(arguments)
+    said = capsys.readouterr().err
+    assert stop.value.code == 2
+    assert said.startswith("usage: conformance list [-h] [--tag TAG]")
+    assert said.endswith("conformance list: error: unrecognized arguments: --bogus\n")
