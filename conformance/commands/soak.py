@@ -7,7 +7,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Final, NamedTuple
 
 from conformance import exit_codes
-from conformance.commands.options import UsageError, add_candidate_option, check_jobs
+from conformance.commands.options import UsageError, add_candidate_option, check_candidate, check_jobs
 from conformance.option_types import positive, whole_from
 
 if TYPE_CHECKING:
@@ -163,20 +163,12 @@ def _exit_code(tally: Tally, ended: int) -> int:
 
 
 def _identity(args: argparse.Namespace) -> Identity:
-    from conformance.candidates.registry import (
-        BadCandidateError,
-        MissingExtraError,
-        UnknownCandidateError,
-        check_spec,
-    )
     from conformance.soak.families import STRATEGIES, mix_of
     from conformance.soak.identity import identity_of
 
+    check_candidate(args)
     try:
-        check_spec(args.candidate)
         families = mix_of(args.family).names
-    except (BadCandidateError, MissingExtraError, UnknownCandidateError) as error:
-        raise UsageError(str(error)) from error
     except KeyError as error:
         raise UsageError(f"no family {error}; there are {', '.join(STRATEGIES)}") from error
     return identity_of(
