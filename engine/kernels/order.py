@@ -201,12 +201,6 @@ def _are_apart(kind: int, rows: Array, columns: Order, doublings: int) -> bool:
 
 
 @inlined
-def _pays(kind: int, rows: Array, buckets: Order, doublings: int) -> bool:
-    """Say whether it pays to sort the rows."""
-    return len(rows) >= SMALLEST and _are_worth_it(kind, rows) and _are_apart(kind, rows, buckets, doublings)
-
-
-@inlined
 def _sort(kind: int, rows: Array, order: Order, own: Order, buckets: Order, doublings: int) -> None:
     """Write the numbers of the rows by their buckets: a counting sort."""
     for b in range(BUCKETS):
@@ -225,6 +219,20 @@ def _sort(kind: int, rows: Array, order: Order, own: Order, buckets: Order, doub
         bucket = unsigned(own[unsigned(i)])
         order[unsigned(buckets[bucket])] = i
         buckets[bucket] += 1
+
+
+@inlined
+def _sort_if_it_pays(kind: int, rows: Array, order: Order) -> bool:
+    """Sort the rows, unless they are few, soon answered, or near each other anyway; say whether they are."""
+    if len(rows) < SMALLEST or not _are_worth_it(kind, rows):
+        return False
+    count = len(rows)
+    own, buckets = order[count : 2 * count], order[2 * count :]
+    doublings = _doublings(kind, rows)
+    if not _are_apart(kind, rows, buckets, doublings):
+        return False
+    _sort(kind, rows, order, own, buckets, doublings)
+    return True
 
 
 @kernel
@@ -248,14 +256,10 @@ def put_in_order(kind: int, rows: Array, order: Order, share: Ints) -> None:
     if len(order) == 0:
         return
     if is_first(share):
-        count = len(rows)
-        own, buckets = order[count : 2 * count], order[2 * count :]
-        doublings = _doublings(kind, rows)
-        if _pays(kind, rows, buckets, doublings):
-            _sort(kind, rows, order, own, buckets, doublings)
-            share[SHARE_REORDERED] = count
+        if _sort_if_it_pays(kind, rows, order):
+            share[SHARE_REORDERED] = len(rows)
         else:
-            for i in range(count):
+            for i in range(len(rows)):
                 order[unsigned(i)] = i
         make_ready(share)
     else:
