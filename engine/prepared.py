@@ -70,16 +70,17 @@ class Prepared:
         else:
             rows, job, plan = collision_rows(world, [query]), program.COLLIDE, of_calls(plan)
         results = np.zeros(1, dtype=at.RESULT_DTYPE)
+        answers = rows_as_numbers(results)
         self.query: Final[Any] = rows[0]
         self.result: Final[Any] = results[0]
-        self._numbers: Final = results.view(np.float64)
+        self._numbers: Final = answers[0]
         self._share: Final = new_share(1)
         self._arguments: Final = (
             *world.arrays,
             world.new_row(plan=plan),
             job,
             rows_as_numbers(rows),
-            self._numbers.reshape(1, at.RESULT_SIZE),
+            answers,
             AS_ASKED,
             self._share,
         )

@@ -18,6 +18,7 @@ from engine.kernels.ahead import bring_near
 from engine.kernels.approach import MOST, NO_STEPS, STEPS, approach, is_large
 from engine.kernels.collisions import collide
 from engine.kernels.lattice import NOWHERE, cube_at, half, is_unknown, listed, lists_of, nothing_near
+from engine.memory import rows_as_numbers
 from engine.probes import count_reordered
 from engine.tracing_interpreter import Interpreter
 
@@ -55,7 +56,7 @@ def brought(world: World, rows: Rows) -> list[list[tuple[bool, int]]]:
     places: list[tuple[bool, int]] = []
     noted = {bring_near: lambda array, first, _: places.append((array is floats, int(first)))}
     step: Any = Interpreter(noted).function(approach)
-    numbers = rows.view(np.float64).reshape(len(rows), -1)
+    numbers = rows_as_numbers(rows)
     steps, turns = NO_STEPS, []
     with np.errstate(all="ignore"):
         for row in [*numbers, *repeat(numbers[-1], STEPS - 1)]:
@@ -110,7 +111,7 @@ def test_a_call_looks_up_where_it_was_expected_to(building: BenchScene, calls: R
 
     watched: Any = Interpreter({nothing_near: note}).function(collide)
     some = calls[0:40:2].copy()
-    rows = some.view(np.float64).reshape(len(some), -1)
+    rows = rows_as_numbers(some)
     for row, center in zip(rows, looked_up(building, some), strict=True):
         asked.clear()
         watched(world.floats, world.ints, world.new_row(), row, np.zeros(at.RESULT_SIZE))

@@ -28,6 +28,7 @@ from engine.kernels.order import (
 )
 from engine.kernels.sharing import SHARE_DONE, SHARE_READY, SHARE_REORDERED, SHARE_SORTERS
 from engine.kernels.tree_calls import strike_many
+from engine.memory import rows_as_numbers
 from engine.threads import new_share
 
 if TYPE_CHECKING:
@@ -70,11 +71,6 @@ def bodies_within(side: float) -> Rows:
     return rows
 
 
-def numbers(rows: Rows) -> Array:
-    """Return rows as kernels see them."""
-    return rows.view(np.float64).reshape(len(rows), -1)
-
-
 def test_rows_are_sorted_by_place_and_then_as_they_lie() -> None:
     """Every row once; those of a bucket in the order in which they came."""
     order, own = order_at(SPHERES, spheres_within(60.0))
@@ -113,7 +109,7 @@ def test_blocks_side_by_side_are_as_wide_as_they_are() -> None:
     rows["end"][:, 5] -= 192.0 * east
     rows["end"][:, 6] -= 192.0 * north
     for kind in (CALLS, MOVES):
-        assert 3.6 < widest_bucket(kind, numbers(rows), places) < 4.0
+        assert 3.6 < widest_bucket(kind, rows_as_numbers(rows), places) < 4.0
 
 
 def test_one_that_is_lost_widens_no_bucket() -> None:
@@ -149,13 +145,16 @@ def test_blocks_are_in_one_space() -> None:
     rows["end"][0, -3:], rows["end"][1, -3:] = (192.5, 30.0, 1.0), (0.5, 30.0, 1.0)
     rows["end"][1, 0] = EAST
     for kind in (CALLS, MOVES):
-        assert len(set(order_at(kind, numbers(rows))[1][:2].tolist())) == 1
+        assert len(set(order_at(kind, rows_as_numbers(rows))[1][:2].tolist())) == 1
 
 
 def test_bodies_are_where_they_are() -> None:
     """In the same buckets as queries that end there."""
     queries, bodies = queries_within(40.0), bodies_within(40.0)
-    of_queries, of_bodies = order_at(MOVES, numbers(queries)), order_at(BODIES, numbers(bodies))
+    of_queries, of_bodies = (
+        order_at(MOVES, rows_as_numbers(queries)),
+        order_at(BODIES, rows_as_numbers(bodies)),
+    )
     assert np.array_equal(of_queries, of_bodies)
 
 
@@ -167,7 +166,7 @@ def test_no_number_is_too_strange(strange: list[float]) -> None:
     spheres[: len(strange), :3] = np.array(strange)[:, np.newaxis]
     queries["end"][: len(strange), -3:] = spheres[: len(strange), :3]
     queries["end"][: len(strange), 0] = strange
-    for kind, rows in ((SPHERES, spheres), (CALLS, numbers(queries))):
+    for kind, rows in ((SPHERES, spheres), (CALLS, rows_as_numbers(queries))):
         order = order_of(kind, rows)
         assert np.array_equal(np.sort(order), np.arange(len(rows)))
 
@@ -181,12 +180,12 @@ def test_few_are_answered_as_they_lie() -> None:
 
 def test_who_is_near_everybody_is_answered_in_turn() -> None:
     """All within a room are near each other as they lie, for every kind of rows."""
-    for kind, rows in ((SPHERES, spheres_within(6.0)), (MOVES, numbers(queries_within(6.0)))):
+    for kind, rows in ((SPHERES, spheres_within(6.0)), (MOVES, rows_as_numbers(queries_within(6.0)))):
         assert order_of(kind, rows) is AS_ASKED
     for side, turns in ((14.0, 0), (30.0, COUNT)):
-        assert len(order_of(CALLS, numbers(queries_within(side)))) == turns
-    assert len(order_of(MOVES, numbers(queries_within(14.0)))) == COUNT
-    assert order_of(BODIES, numbers(bodies_within(6.0))) is AS_ASKED
+        assert len(order_of(CALLS, rows_as_numbers(queries_within(side)))) == turns
+    assert len(order_of(MOVES, rows_as_numbers(queries_within(14.0)))) == COUNT
+    assert order_of(BODIES, rows_as_numbers(bodies_within(6.0))) is AS_ASKED
 
 
 def test_what_takes_no_time_is_answered_in_turn() -> None:
@@ -194,11 +193,13 @@ def test_what_takes_no_time_is_answered_in_turn() -> None:
     rows, bodies = queries_within(60.0), bodies_within(60.0)
     rows["contact_plane_valid"][: COUNT // 4] = 0.0
     bodies["transient_state"][: COUNT // 4] = 0.0
-    assert len(order_of(MOVES, numbers(rows))) == len(order_of(BODIES, numbers(bodies))) == COUNT
+    assert (
+        len(order_of(MOVES, rows_as_numbers(rows))) == len(order_of(BODIES, rows_as_numbers(bodies))) == COUNT
+    )
     rows["contact_plane_valid"][: 3 * COUNT // 4] = 0.0
     bodies["transient_state"][: 3 * COUNT // 4] = 0.0
-    assert order_of(MOVES, numbers(rows)) is order_of(BODIES, numbers(bodies)) is AS_ASKED
-    assert len(order_of(CALLS, numbers(rows))) == COUNT
+    assert order_of(MOVES, rows_as_numbers(rows)) is order_of(BODIES, rows_as_numbers(bodies)) is AS_ASKED
+    assert len(order_of(CALLS, rows_as_numbers(rows))) == COUNT
 
 
 def strike_all(order: Order, share: Ints) -> None:

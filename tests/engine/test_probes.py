@@ -7,6 +7,7 @@ from engine_scenes import CELL, R, at, floor_and_wall, mover, triangle, world_of
 
 from engine import Move, Plan, resolve, resolve_many
 from engine import layout as of
+from engine.body_layout import BODY_DTYPE
 from engine.linear_scan import scanning
 from engine.probes import WORK_FIELDS, Work, without_work, work_of
 from engine.query import move_rows
@@ -46,6 +47,7 @@ def test_what_is_left_without_work_is_every_other_bit() -> None:
     left = without_work(results)
     assert set(left) == set(of.RESULT_DTYPE.names) - WORK_FIELDS
     assert set(of.RESULT_DTYPE.names) > WORK_FIELDS
+    assert set(BODY_DTYPE.names) > WORK_FIELDS - {"cells_listed", "objects_tested"}
     for name in WORK_FIELDS:
         results[name] = 1.0
     assert without_work(results) == left

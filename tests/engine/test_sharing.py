@@ -25,6 +25,7 @@ from engine.kernels.sharing import (
     lane_after,
     take,
 )
+from engine.memory import rows_as_numbers
 from engine.query import move_rows
 from engine.threads import new_share
 from engine.tracing_interpreter import Interpreter
@@ -54,7 +55,7 @@ def test_turns_become_shorter_towards_the_end() -> None:
 
 def test_who_is_done_with_its_lane_helps_the_others() -> None:
     """In turn; what others have taken is left alone."""
-    rows = move_rows(WORLD, MOVES).view(np.float64).reshape(COUNT, -1)
+    rows = rows_as_numbers(move_rows(WORLD, MOVES))
     out = np.full((COUNT, int(of.RESULT_SIZE)), np.nan)
     share = new_share(COUNT, 2)
     other = LANE_INTS * 2
@@ -75,7 +76,7 @@ def test_each_begins_with_a_lane_of_its_own() -> None:
 
 def test_no_addition_is_lost() -> None:
     """Of many threads that take rows at the same time; each row is answered once."""
-    rows = move_rows(WORLD, MOVES).view(np.float64).reshape(COUNT, -1)
+    rows = rows_as_numbers(move_rows(WORLD, MOVES))
     out = np.empty((COUNT, int(of.RESULT_SIZE)))
     shares = [new_share(COUNT, 4) for _ in range(20)]
 

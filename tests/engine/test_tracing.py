@@ -28,6 +28,7 @@ from engine.constants import FLOOR_Z
 from engine.kernels.program import RESOLVE
 from engine.kernels.program import run as compiled
 from engine.layout import RESULT_SIZE
+from engine.memory import rows_as_numbers
 from engine.plan import NO_PLAN
 from engine.query import move_rows
 from engine.threads import new_share
@@ -244,7 +245,7 @@ def test_an_error_leaves_a_call_unfinished() -> None:
                 raise FatalError
             return super().__getitem__(index)
 
-    queries = move_rows(world, [LANDING]).view(np.float64).reshape(1, -1)
+    queries = rows_as_numbers(move_rows(world, [LANDING]))
     out = np.zeros((1, int(RESULT_SIZE)))
     floats, row = world.floats.view(Unreadable), world.new_row()
     with recording((STATE, BSP)) as trace, pytest.raises(FatalError):
