@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 from conformance.candidates.command_candidate import CommandCandidate
 from conformance.candidates.module_candidate import FactoryError, ModuleCandidate, find_factory
 from conformance.candidates.registry import COMMAND_PREFIX, MODULE_PREFIX, BadCandidateError
-from conformance.protocol.process import CommandError, split_command
+from conformance.protocol.process import CommandError, check_program
 from conformance.protocol.session import READ_SECONDS
 
 if TYPE_CHECKING:
@@ -22,17 +22,19 @@ def make_foreign(spec: str, read_timeout: float | None) -> Candidate:
     with _bad_candidates():
         if spec.startswith(MODULE_PREFIX):
             return ModuleCandidate(spec.removeprefix(MODULE_PREFIX))
+        command = spec.removeprefix(COMMAND_PREFIX)
+        check_program(command)
         seconds = READ_SECONDS if read_timeout is None else read_timeout
-        return CommandCandidate(spec.removeprefix(COMMAND_PREFIX), read_timeout=seconds)
+        return CommandCandidate(command, read_timeout=seconds)
 
 
 def check_foreign(spec: str) -> None:
-    """Raise `BadCandidateError` for a command that cannot be read or a factory that is not there."""
+    """Raise `BadCandidateError` for a command without a program, or a factory, that is there."""
     with _bad_candidates():
         if spec.startswith(MODULE_PREFIX):
             find_factory(spec.removeprefix(MODULE_PREFIX))
         else:
-            split_command(spec.removeprefix(COMMAND_PREFIX))
+            check_program(spec.removeprefix(COMMAND_PREFIX))
 
 
 @contextmanager

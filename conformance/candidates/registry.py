@@ -59,7 +59,7 @@ class MissingExtraError(ImportError):
 
 
 class BadCandidateError(ValueError):
-    """An engine's command cannot be read, or its factory cannot be imported or called."""
+    """An engine's command cannot be read, its program is not there, or its factory cannot be called."""
 
 
 def candidate_names() -> tuple[str, ...]:
@@ -87,7 +87,8 @@ def make_candidate(spec: str, *, read_timeout: float | None = None) -> Candidate
     MissingExtraError
         If it needs an extra that is not installed.
     BadCandidateError
-        If it is a command that cannot be read, or a factory that cannot be imported or called.
+        If it is a command that cannot be read or whose program is not there, or a factory that cannot be
+        imported or called.
     """
     check_extra(spec)
     if spec.startswith((COMMAND_PREFIX, MODULE_PREFIX)):

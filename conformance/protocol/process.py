@@ -9,11 +9,13 @@ from __future__ import annotations
 import contextlib
 import os
 import shlex
+import shutil
 import signal
 import subprocess
 import sys
 import threading
 import weakref
+from pathlib import Path
 from typing import IO, TYPE_CHECKING, Final, cast
 
 from conformance.protocol.incoming import Incoming
@@ -121,6 +123,29 @@ def split_command(command: str) -> list[str] | str:
         return command if sys.platform == "win32" else shlex.split(command)
     except ValueError as error:
         raise CommandError(f"{command!r}: {error}") from None
+
+
+def check_program(command: str) -> None:
+    """Raise `CommandError` if a command cannot be read, or names no program that can be run here."""
+    words = split_command(command)
+    names = _programs(words) if isinstance(words, str) else words[:1]
+    if not any(shutil.which(name, path=_search_path()) for name in names):
+        raise CommandError(f"found no program {names[0]!r} that can be run, in the command {command!r}")
+
+
+def _programs(command: str) -> list[str]:
+    """Return what a command's program may be called on Windows, which tries how far a bare name goes."""
+    if command.startswith('"'):
+        return [command[1:].partition('"')[0]]
+    words = command.split(" ")
+    return [" ".join(words[:n]) for n in range(1, len(words) + 1)]
+
+
+def _search_path() -> str | None:
+    """Return where programs are searched for, if not only on the path: Windows begins beside who asks."""
+    beside = str(Path(sys.executable).parent)
+    path = os.environ.get("PATH", os.defpath)
+    return os.pathsep.join((beside, path)) if sys.platform == "win32" else None
 
 
 def command_line(words: Sequence[str]) -> str:

@@ -79,6 +79,7 @@ def test_the_rerun_command_quotes_the_engine(records: Path, capsys: pytest.Captu
     ("spec", "message"),
     [
         ("cmd:", "found no command, expected a program, as in cmd:./my-engine"),
+        ("cmd:./no-such-engine --flag", "found no program './no-such-engine' that can be run"),
         ("mod:no_such_module:Engine", "ModuleNotFoundError: No module named 'no_such_module'"),
         ("cmnd:./engine", "cmd:COMMAND and mod:PACKAGE.MODULE:FACTORY for engines of your own"),
     ],
@@ -151,6 +152,7 @@ def test_the_suite_is_red_for_a_bad_stop(run: pytest.Pytester) -> None:
     ("options", "message"),
     [
         (["--candidate", "cmd: "], "*--candidate: found no command, expected a program*"),
+        (["--candidate", "cmd:./no-such-engine"], "*--candidate: found no program './no-such-engine'*"),
         (["--candidate", "mod:x"], "*--candidate: found mod:x, expected mod:package.module:factory*"),
         (["--read-timeout", "0"], "*--read-timeout: found 0, expected seconds, more than 0*"),
     ],
