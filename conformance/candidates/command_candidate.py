@@ -11,7 +11,7 @@ from conformance.protocol.features import undeclared
 from conformance.protocol.process import CommandError, ProcessStartError, split_command
 from conformance.protocol.replies import BadReplyError, outcome_of
 from conformance.protocol.scenes import SceneSlots, run_line, scene_line
-from conformance.protocol.session import READ_SECONDS, EngineTroubleError, Session
+from conformance.protocol.session import READ_SECONDS, EngineHungError, EngineTroubleError, Session
 from conformance.query import Errored, Skipped
 
 if TYPE_CHECKING:
@@ -26,6 +26,8 @@ WINDOW: Final = 64
 """How many messages may be on their way at once: enough to keep an engine busy while retail is computed."""
 MOST_FAILED_STARTS: Final = 3
 """After as many failed starts in a row the engine is not started any more."""
+MOST_HANGS: Final = 10
+"""After as many hangs with no answer between them it is not, either: each takes as long as a reply may."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -41,7 +43,8 @@ class CommandCandidate:
     """Asks an engine over its stdin and stdout, and starts it again when it has failed.
 
     An engine that ends, hangs or replies badly has failed at the query whose reply was awaited; the queries
-    that were sent after that are sent again to the next one.
+    that were sent after that are sent again to the next one. One that cannot be started, or hangs whatever
+    it is asked, is given up.
 
     Parameters
     ----------
@@ -64,6 +67,7 @@ class CommandCandidate:
         self._session: Session | None = None
         self._failed_starts = 0
         self._start_error: Exception | None = None
+        self._hangs = 0
         self._slots = SceneSlots()
         self._wanted: set[Query] = set()
         self._waiting: deque[Query] = deque()
@@ -121,6 +125,9 @@ class CommandCandidate:
         if self._start_error is not None and self._failed_starts >= MOST_FAILED_STARTS:
             why = f"given up after {self._failed_starts} failed starts in a row: {self._start_error}"
             raise EngineTroubleError(why)
+        if self._hangs >= MOST_HANGS:
+            why = f"given up after {self._hangs} hangs with no answer between them; try `conformance smoke`"
+            raise EngineTroubleError(why)
         try:
             session = Session(self._command, self._read_timeout)
         except (CommandError, ProcessStartError, EngineTroubleError) as error:
@@ -176,6 +183,7 @@ class CommandCandidate:
         reply = session.receive(sent.seq)
         self._sent.popleft()
         if sent.query is not None:
+            self._hangs = 0
             self._conclude(sent.query, _outcome(sent.query, sent.scene, reply, session.capabilities.floats))
         elif sent.scene is not None:
             sent.scene.refused = _refusal_of_scene(reply)
@@ -186,6 +194,7 @@ class CommandCandidate:
 
     def _fail(self, trouble: EngineTroubleError) -> None:
         """Record the trouble for the query whose reply was awaited; the others wait for a new engine."""
+        self._hangs += isinstance(trouble, EngineHungError)
         self._waiting.extendleft([sent.query for sent in reversed(self._sent) if sent.query is not None])
         self._sent.clear()
         self._slots.clear()

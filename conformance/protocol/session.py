@@ -38,6 +38,10 @@ class EngineTroubleError(Exception):
         super().__init__(what + tail)
 
 
+class EngineHungError(EngineTroubleError):
+    """An engine has not replied in time, and nobody knows whether it ever would have."""
+
+
 class Session:
     """An engine that was started and has introduced itself.
 
@@ -87,7 +91,9 @@ class Session:
         try:
             line = self._process.receive(seconds)
         except ReadTimeoutError:
-            raise self.trouble(f"no reply within {seconds:g} s (--read-timeout)") from None
+            self._process.kill()
+            why = f"no reply within {seconds:g} s (--read-timeout)"
+            raise EngineHungError(why, self._process.log()) from None
         if not line:
             status = self._process.wait(self._timeout)
             raise self.trouble(f"the engine {describe_exit(status)} before it replied")

@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING
 import pytest
 from faux import faux, queries, right
 
+from conformance.candidates import command_candidate
 from conformance.compare import differences
 from conformance.query import Errored, Query, Result, Skipped
 
@@ -91,6 +92,27 @@ def test_a_hang_is_that_query_s() -> None:
     assert candidate.close() == ()
 
 
+def test_who_hangs_at_everything_is_given_up(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Otherwise a bridge that never flushes its stdout would keep the suite for hours."""
+    monkeypatch.setattr(command_candidate, "MOST_HANGS", 2)
+    candidate = faux("hang", 1, read_timeout=0.5)
+    outcomes = [candidate.answer(query) for query in queries()[:4]]
+    assert outcomes[:2] == [Errored("no reply within 0.5 s (--read-timeout)")] * 2
+    given_up = "given up after 2 hangs with no answer between them; try `conformance smoke`"
+    assert outcomes[2:] == [Errored(given_up)] * 2
+    assert candidate.close() == ()
+
+
+def test_who_replies_between_hangs_is_not_given_up(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Every second query hangs, and every other one has its answer."""
+    monkeypatch.setattr(command_candidate, "MOST_HANGS", 2)
+    candidate = faux("hang", 2, read_timeout=0.5)
+    outcomes = [candidate.answer(query) for query in queries()[:6]]
+    assert outcomes[::2] == [right(query) for query in queries()[:6:2]]
+    assert outcomes[1::2] == [Errored("no reply within 0.5 s (--read-timeout)")] * 3
+    assert candidate.close() == ()
+
+
 def test_what_an_engine_has_started_ends_with_it() -> None:
     """A child that holds the engine's stdout does not keep the suite waiting."""
     candidate = faux("child", AT, read_timeout=0.5)
@@ -168,9 +190,7 @@ def test_a_mute_engine_is_given_up() -> None:
 
 def test_a_program_that_is_not_there() -> None:
     """It is named, with the system's reason."""
-    from conformance.candidates.command_candidate import CommandCandidate
-
-    outcome = CommandCandidate("./no-such-engine --flag").answer(queries()[0])
+    outcome = command_candidate.CommandCandidate("./no-such-engine --flag").answer(queries()[0])
     assert isinstance(outcome, Errored)
     assert outcome.context.startswith("cannot run './no-such-engine --flag': ")
 
