@@ -83,6 +83,7 @@ def write_found(
     *,
     candidate: str,
     provenance: str,
+    said: str = "",
 ) -> Path:
     """Write a failing query as a case file and return its path.
 
@@ -100,8 +101,10 @@ def write_found(
         Who answered wrongly.
     provenance : str
         What found it: test and profile.
+    said : str
+        What went wrong, in one line; empty: the first difference.
     """
-    document = found_document(query, differences, candidate=candidate, provenance=provenance)
+    document = found_document(query, differences, candidate=candidate, provenance=provenance, said=said)
     path = directory / f"{document['id']}.yaml"
     write_text(path, found_yaml(document))
     return path
@@ -122,10 +125,8 @@ def found_document(
 
     Parameters
     ----------
-    query, differences, candidate, provenance
+    query, differences, candidate, provenance, said
         As of `write_found`.
-    said : str
-        What went wrong, in one line; empty: the first difference.
     """
     inputs = short_inputs(query.inputs)
     geometries = [{**short_geometry(geometry), "name": name} for name, geometry in query.geometries.items()]

@@ -10,12 +10,15 @@ from typing import TYPE_CHECKING, Any, TypeAlias
 from hypothesis import given
 
 from conformance.compare import differences
+from conformance.found import write_found
 from conformance.profiles import scaled
 from conformance.query import Errored, Result
-from conformance.report.text import summary_line
+from conformance.report.scene import scene_line
+from conformance.report.text import quoted_spec, summary_line
 
 if TYPE_CHECKING:
     from collections.abc import Callable
+    from pathlib import Path
 
     from hypothesis.strategies import SearchStrategy
 
@@ -37,11 +40,14 @@ class Law:
         What it speaks of: its condition, as far as it is one on queries.
     breach : callable
         Given a query and a function that answers queries, says how the law is broken; empty if it holds.
+    multiple : float
+        How many times the profile's number of queries it takes: more where few of them can tell.
     """
 
     name: str
     queries: SearchStrategy[Query]
     breach: Callable[[Query, Ask], str]
+    multiple: float = 1.0
 
 
 class BrokenLawError(AssertionError):
@@ -50,10 +56,21 @@ class BrokenLawError(AssertionError):
 
 @dataclass(slots=True)
 class LawRun:
-    """What a run has asked so far: queries that were answered, and why others were skipped."""
+    """What a run has asked so far.
+
+    Attributes
+    ----------
+    compared : int
+        Queries of the law that were answered.
+    skipped : Counter of str
+        Those that were not, by the reason.
+    breaking : tuple of Query
+        The questions whose answers broke the law, those of the smallest query; none if it was kept.
+    """
 
     compared: int = 0
     skipped: Counter[str] = field(default_factory=Counter)
+    breaking: tuple[Query, ...] = ()
 
     def counts(self) -> dict[str, Any]:
         """Return the counts as they travel in test reports."""
@@ -64,7 +81,7 @@ class _UnansweredError(Exception):
     """A question of a law that the candidate does not answer."""
 
 
-def hold(law: Law, candidate: Candidate, run: LawRun, *, multiple: float) -> None:
+def hold(law: Law, candidate: Candidate, run: LawRun, *, multiple: float = 1.0) -> None:
     """Ask a candidate random queries of a law until one breaks it.
 
     Parameters
@@ -76,15 +93,17 @@ def hold(law: Law, candidate: Candidate, run: LawRun, *, multiple: float) -> Non
     run : LawRun
         Where to count.
     multiple : float
-        How many times the loaded profile's number of examples.
+        How many times as many queries as the law takes in the loaded profile.
 
     Raises
     ------
     BrokenLawError
         For the smallest query that was found; also if the candidate fails to answer one.
     """
+    asked: list[Query] = []
 
     def ask(query: Query) -> Fields:
+        asked.append(query)
         outcome = candidate.answer(query)
         if isinstance(outcome, Result):
             return outcome.fields
@@ -94,16 +113,48 @@ def hold(law: Law, candidate: Candidate, run: LawRun, *, multiple: float) -> Non
         raise _UnansweredError
 
     def once(query: Query) -> None:
+        asked.clear()
         try:
             broken = law.breach(query, ask)
         except _UnansweredError:
             return
+        except BrokenLawError:
+            run.breaking = tuple(asked)
+            raise
         run.compared += 1
         if broken:
+            run.breaking = tuple(asked)
             raise BrokenLawError(f"{law.name}: {broken}")
 
     once.__name__ = once.__qualname__ = re.sub(r"\W+", "_", f"law {law.name}")
-    scaled(multiple)(given(law.queries)(once))()
+    scaled(multiple * law.multiple)(given(law.queries)(once))()
+
+
+def explain(run: LawRun, directory: Path, candidate: Candidate, *, broken: str, profile: str) -> str:
+    """Keep the questions that broke a law as cases, and tell how to ask each of them again.
+
+    Each of the answers may be right by itself: against retail, the cases show which of them is not.
+
+    Parameters
+    ----------
+    run : LawRun
+        One that has ended with a `BrokenLawError`.
+    directory : Path
+        Where cases are kept; made if it is not there.
+    candidate : Candidate
+        Who has broken the law.
+    broken : str
+        The law, and how it was broken.
+    profile : str
+        Of the queries.
+    """
+    lines = [broken]
+    for number, query in enumerate(run.breaking, start=1):
+        provenance = f"question {number} of {len(run.breaking)} of a law, profile {profile}"
+        path = write_found(directory, query, (), candidate=candidate.name, provenance=provenance, said=broken)
+        lines += ["", f"  question {number}: {scene_line(query)}"]
+        lines += [f'  against retail: pytest "{path}" --candidate {quoted_spec(candidate.name)}']
+    return "\n".join(lines)
 
 
 def unlike(op: str, expected: Fields, found: Fields, who: str) -> str:

@@ -14,11 +14,12 @@ from conformance.candidates.oracle_candidate import OracleCandidate
 from conformance.candidates.registry import make_candidate
 from conformance.floats import next_float32
 from conformance.laws.catalogue import LAWS
-from conformance.laws.law import BrokenLawError, LawRun, hold
+from conformance.laws.law import BrokenLawError, LawRun, explain, hold
 from conformance.laws.renaming import SHIFT
 from conformance.laws.signed_axes import HALF_TURN, MIRROR, QUARTER_TURN
 from conformance.laws.splitting import RADIUS, flight
 from conformance.laws.square import square_transitions
+from conformance.loader import load_file
 from conformance.profiles import CI, register
 from conformance.query import Errored, Result, Skipped
 from conformance.scenes.block_shifts import shifted_id
@@ -26,6 +27,7 @@ from conformance.scenes.model import Node
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterator
+    from pathlib import Path
 
     from conformance.query import Fields, Outcome, Query
 
@@ -171,6 +173,22 @@ def test_the_law_can_fail(name: str) -> None:
 
     with pytest.raises(BrokenLawError):
         draw_queries(law.queries, MOST_DRAWS, once)
+
+
+def test_the_suite_asks_enough_to_see_planes_in_cell_space(tmp_path: Path) -> None:
+    """They break the law of translation; what was asked is kept, and retail answers some of it otherwise."""
+    candidate, run = make_candidate("bug:cell-origin"), LawRun()
+    with pytest.raises(BrokenLawError, match=r"^translation: contact_plane\.d: ") as caught:
+        hold(LAWS["translation"], candidate, run)
+    broken, *told = explain(run, tmp_path, candidate, broken=str(caught.value), profile=CI).splitlines()
+    assert broken == str(caught.value)
+    kept = [case.queries[0] for path in tmp_path.iterdir() for case in load_file(path).cases]
+    assert len(kept) == len(run.breaking) == 2
+    assert [line.partition(": ")[0] for line in told if line] == [
+        *("  question 1", "  against retail"),
+        *("  question 2", "  against retail"),
+    ]
+    assert [OracleCandidate().answer(query) == candidate.answer(query) for query in kept].count(False) > 0
 
 
 def test_a_placement_has_a_north() -> None:
