@@ -175,16 +175,11 @@ def _check_candidate(config: pytest.Config) -> None:
     """Refuse an unknown candidate at once; the default is loaded only when a test needs it."""
     spec = config.getoption("--candidate", DEFAULT_CANDIDATE)
     if spec != DEFAULT_CANDIDATE:
-        from conformance.candidates.registry import (
-            BadCandidateError,
-            MissingExtraError,
-            UnknownCandidateError,
-            check_spec,
-        )
+        from conformance.candidates.registry import CANDIDATE_ERRORS, check_spec
 
         try:
             check_spec(spec)
-        except (BadCandidateError, MissingExtraError, UnknownCandidateError) as error:
+        except CANDIDATE_ERRORS as error:
             raise pytest.UsageError(f"--candidate: {error}") from error
 
 

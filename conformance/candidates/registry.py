@@ -62,6 +62,10 @@ class BadCandidateError(ValueError):
     """An engine's command cannot be read, its program is not there, or its factory cannot be called."""
 
 
+CANDIDATE_ERRORS: Final = (BadCandidateError, MissingExtraError, UnknownCandidateError)
+"""What is wrong with a candidate's name, and is for the user to read."""
+
+
 def candidate_names() -> tuple[str, ...]:
     """Return every name that `make_candidate` accepts, engines of other packages and processes excepted."""
     return (*BUILT_IN, *_bug_candidates())

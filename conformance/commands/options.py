@@ -63,13 +63,9 @@ def check_candidate(args: argparse.Namespace) -> None:
 @contextmanager
 def _usage_errors() -> Iterator[None]:
     """Turn what is wrong with a candidate's name into a `UsageError`."""
-    from conformance.candidates.registry import (
-        BadCandidateError,
-        MissingExtraError,
-        UnknownCandidateError,
-    )
+    from conformance.candidates.registry import CANDIDATE_ERRORS
 
     try:
         yield
-    except (BadCandidateError, MissingExtraError, UnknownCandidateError) as error:
+    except CANDIDATE_ERRORS as error:
         raise UsageError(str(error)) from error
