@@ -94,6 +94,9 @@ def main(argv: Sequence[str] | None = None) -> int:
         return _give_up(args.command, str(error), exit_codes.USAGE)
     except KeyboardInterrupt:
         return _give_up(args.command, "broken off", exit_codes.BROKEN_OFF)
+    except BrokenPipeError:  # who reads has seen enough: `conformance list | head`
+        _silence_closed_pipe()
+        return exit_codes.CANNOT_WRITE
     except OSError as error:
         _silence_closed_pipe()
         reason = f"cannot write {error.filename}: {error.strerror}" if error.filename else str(error)

@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
+import errno
 import math
+import os
 import sys
 import time
-from typing import TYPE_CHECKING, Final, Self
+from typing import TYPE_CHECKING, Final, NoReturn, Self
 
 from rich.console import Console
 
@@ -18,9 +20,17 @@ _SILENT_SECONDS: Final = 2.0
 """A run shorter than this shows no progress."""
 
 
+class _Console(Console):
+    """A console whose reader may have gone away."""
+
+    def on_broken_pipe(self) -> NoReturn:
+        """Leave it to the command: rich would end the process with the exit code of a failure."""
+        raise BrokenPipeError(errno.EPIPE, os.strerror(errno.EPIPE))
+
+
 def make_console(*, stderr: bool = False) -> Console:
     """Return a console that prints text as it is: no markup, no wrapping, no guessed colours."""
-    return Console(stderr=stderr, highlight=False, markup=False, emoji=False, soft_wrap=True)
+    return _Console(stderr=stderr, highlight=False, markup=False, emoji=False, soft_wrap=True)
 
 
 class Progress:

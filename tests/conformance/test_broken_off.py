@@ -10,6 +10,7 @@ import subprocess
 import sys
 from importlib.metadata import entry_points
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 import pytest
 
@@ -18,6 +19,9 @@ from conformance.bug_hunt import HuntBrokenOffError, hunt
 from conformance.candidates.known_bugs import list_bugs
 from conformance.console import Progress
 from conformance.files import write_text
+
+if TYPE_CHECKING:
+    from collections.abc import Sequence
 
 ROOT = Path(__file__).parents[2]
 RECORD = {"op": "block_offset", "from_cell": 1, "to_cell": 2, "expect": {"v": [0, 0, 0]}}
@@ -109,6 +113,18 @@ def test_any_command_says_that_it_could_not_write(
     said = capsys.readouterr().err
     assert said.startswith("conformance lint: ")
     assert "results.json" in said
+
+
+@pytest.mark.parametrize("options", [(), ("--json",)], ids=["text", "json"])
+def test_a_reader_that_goes_away_is_no_failure(options: Sequence[str]) -> None:
+    """`conformance list | head` has an exit code of its own, and says nothing."""
+    command = [sys.executable, "-m", "conformance.cli", "list", *options]
+    with subprocess.Popen(command, stdout=subprocess.PIPE, stderr=subprocess.PIPE, cwd=ROOT) as process:
+        assert process.stdout is not None
+        assert process.stderr is not None
+        process.stdout.close()
+        said = process.stderr.read()
+    assert (process.returncode, said) == (exit_codes.CANNOT_WRITE, b"")
 
 
 def test_a_file_is_written_whole(tmp_path: Path) -> None:
