@@ -76,7 +76,9 @@ def _terrain_block(query: Query) -> Fields:
     block = inputs["block"]
     heights = terrain.block_heights(inputs.get("heights_again", inputs["heights"]), "block")
     triangles = terrain.triangles(block, heights).reshape(int(at.LAND_CELLS), 2, -1)
-    water = terrain.water_of(terrain.block_terrain(inputs.get("terrain"), "block"))
+    # A block of less detail is dry, whatever its corners are (10 6.3).
+    detailed = inputs.get("side_cell_count", terrain.SIDE) == terrain.SIDE
+    water = terrain.water_of(terrain.block_terrain(inputs.get("terrain") if detailed else None, "block"))
     cuts, kinds = terrain.split_cuts(block).ravel(), water.cells.ravel()
     cells = [
         {
