@@ -11,8 +11,8 @@ from engine.kernels.bsp_placement import placement_insert
 from engine.kernels.bsp_tree import dispatch, find_collisions
 from engine.kernels.cell_array import ints_of, position_of
 from engine.kernels.compile import kernel
-from engine.kernels.path import enter_localspace, set_check_pos
-from engine.kernels.query import prepare, report, set_path_fields
+from engine.kernels.path import enter_localspace
+from engine.kernels.query import go_to_end, prepare, report, set_path_fields
 from engine.kernels.stepping import step_up_or_slide
 from engine.kernels.trace import INITIAL_PLACEMENT_CALL, trace_close
 
@@ -39,7 +39,7 @@ def collide(wf: Array, wi: Ints, s: Array, q: Array, out: Array) -> None:
     retail: what calls BSPTREE::find_collisions 0x0053A440 or BSPTREE::placement_insert 0x00539960
     """
     prepare(s, q)
-    set_check_pos(s, at.END_POS, s[at.CURR_CELL])
+    go_to_end(s, q, s[at.CURR_CELL])
     set_path_fields(s, q)
     floats, root, is_part = _target(wi, q)
     scale = wf[floats + at.PART_SCALE] if is_part else 1.0

@@ -17,8 +17,7 @@ from engine.kernels.ahead import bring_to_write
 from engine.kernels.compile import kernel
 from engine.kernels.insertion import answer_step_up, find_in_cell, find_obj_collisions, find_object
 from engine.kernels.objects import test_object_shape
-from engine.kernels.path import set_check_pos
-from engine.kernels.query import prepare, report, set_path_fields
+from engine.kernels.query import go_to_end, prepare, report, set_path_fields
 from engine.kernels.restrictions import check_entry_restrictions, is_restricted
 
 if TYPE_CHECKING:
@@ -50,7 +49,7 @@ def meet(wf: Array, wi: Ints, s: Array, q: Array, out: Array) -> None:
     CEnvCell::find_collisions 0x0052C100 or CObjCell::check_entry_restrictions 0x0052B6D0
     """
     prepare(s, q)
-    set_check_pos(s, at.END_POS, s[at.CURR_CELL])
+    go_to_end(s, q, s[at.CURR_CELL])
     set_path_fields(s, q)
     bring_to_write(out, 0, at.RESULT_SIZE)
     report(wf, s, out, _call(wf, wi, s, q))

@@ -13,14 +13,12 @@ from engine.layout import (
     BACKUP_CELL,
     BACKUP_CHECK_POS,
     BEGIN_CELL,
-    BEGIN_POS,
     CELL_ARRAY_VALID,
     CHECK_CELL,
     CHECK_POS,
     COLLIDE,
     CURR_CELL,
     CURR_POS,
-    END_POS,
     GLOBAL_CURR_CENTER,
     GLOBAL_LOW_POINT,
     GLOBAL_SPHERE,
@@ -59,16 +57,14 @@ if TYPE_CHECKING:
 
 @kernel
 def init_path(s: Array) -> None:
-    """Start at begin_pos, or, for a placement, at end_pos.
+    """Start at the current position: who calls has put begin_pos there or, for a placement, end_pos.
 
     retail: SPHEREPATH::init_path 0x0050CE20, SPP-1...SPP-4
     """
-    placed = s[HAS_BEGIN_POS] == 0.0
-    copy_position(s, CURR_POS, s, END_POS if placed else BEGIN_POS)
     s[CURR_CELL] = s[BEGIN_CELL]
     s[LOCALSPACE_OF] = 0.0
     cache_global_curr_center(s)
-    s[INSERT_TYPE] = PLACEMENT_INSERT if placed else TRANSITION_INSERT
+    s[INSERT_TYPE] = PLACEMENT_INSERT if s[HAS_BEGIN_POS] == 0.0 else TRANSITION_INSERT
 
 
 @kernel
@@ -288,6 +284,12 @@ def set_check_pos(s: Array, p: int, cell: float) -> None:
     retail: SPHEREPATH::set_check_pos 0x0050A8B0, 04 4
     """
     copy_position(s, CHECK_POS, s, p)
+    arrive(s, cell)
+
+
+@inlined
+def arrive(s: Array, cell: float) -> None:
+    """Take the spheres to a new check position, which is in a cell."""
     s[CHECK_CELL] = cell
     s[CELL_ARRAY_VALID] = 0.0
     cache_global_sphere(s)

@@ -8,7 +8,7 @@ from engine import layout as at
 from engine.kernels.collision_info import set_sliding_normal
 from engine.kernels.compile import entry, inlined, kernel
 from engine.kernels.frame import frame_cache
-from engine.kernels.path import init_path
+from engine.kernels.path import arrive, init_path
 from engine.kernels.rounding import f32
 from engine.kernels.vector import copy, copy_four, copy_vector, load, store
 
@@ -29,8 +29,9 @@ def prepare(s: Array, q: Array) -> None:
     s[at.PLACEMENT_ALLOWS_SLIDING] = q[at.Q_PLACEMENT_ALLOWS_SLIDING]
     s[at.BEGIN_CELL] = q[at.Q_BEGIN_CELL]
     s[at.HAS_BEGIN_POS] = q[at.Q_HAS_START]
-    load_pose(s, at.BEGIN_POS, q, at.Q_START)
-    load_pose(s, at.END_POS, q, at.Q_END)
+    _load_place(s, at.BEGIN_POS, q, at.Q_START)
+    _load_place(s, at.END_POS, q, at.Q_END)
+    load_pose(s, at.CURR_POS, q, at.Q_START if q[at.Q_HAS_START] != 0.0 else at.Q_END)
     init_path(s)
 
 
@@ -41,7 +42,7 @@ def clear(s: Array) -> None:
     retail: CTransition::init 0x00509DD0, SPHEREPATH::init 0x0050C330
     """
     plan, capacity = s[at.PLAN], s[at.TRACE_CAPACITY]
-    for i in range(at.STATE_SIZE):
+    for i in range(at.CLEARED_SIZE):
         s[i] = 0.0
     s[at.PLAN] = plan
     s[at.TRACE_CAPACITY] = capacity
@@ -58,10 +59,16 @@ def load_pose(s: Array, p: int, q: Array, pose: int) -> None:
 
     retail: Frame::UnPack 0x005351A0, 01 4.4
     """
+    _load_place(s, p, q, pose)
+    frame_cache(s, p)
+
+
+@inlined
+def _load_place(s: Array, p: int, q: Array, pose: int) -> None:
+    """Make of a pose all of a position but its matrix, for whom nobody asks for that."""
     s[p] = q[pose]
     copy_four(s, p + at.QUATERNION, q, pose + 1)
     copy_vector(s, p + at.ORIGIN, q, pose + 5)
-    frame_cache(s, p)
 
 
 @inlined
@@ -114,6 +121,16 @@ def _seed(s: Array, q: Array) -> None:
     if q[seed + at.SLIDING_VALID] != 0.0:
         set_sliding_normal(s, q[seed + at.SLIDING_NORMAL], q[seed + at.SLIDING_NORMAL + 1])
     s[at.FRAMES_STATIONARY_FALL] = q[seed + at.FRAMES_STATIONARY_FALL]
+
+
+@entry
+def go_to_end(s: Array, q: Array, cell: float) -> None:
+    """Go to where a query ends, in a cell: there a single call is made.
+
+    retail: SPHEREPATH::set_check_pos 0x0050A8B0, 04 4
+    """
+    load_pose(s, at.CHECK_POS, q, at.Q_END)
+    arrive(s, cell)
 
 
 @entry

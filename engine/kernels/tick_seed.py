@@ -57,7 +57,7 @@ from engine.kernels.path import init_path
 from engine.kernels.query import clear, init_spheres, load_pose
 from engine.kernels.tick_contact import leaves_contact
 from engine.kernels.tick_velocity import has_bit
-from engine.kernels.vector import copy_four, copy_position, store
+from engine.kernels.vector import copy_four, copy_place, copy_position, store
 from engine.layout import (
     BEGIN_CELL,
     BEGIN_POS,
@@ -65,6 +65,7 @@ from engine.layout import (
     CONTACT_IS_WATER,
     CONTACT_PLANE,
     CONTACT_VALID,
+    CURR_POS,
     DO_NOT_LOAD_CELLS,
     END_POS,
     FRAMES_STATIONARY_FALL,
@@ -106,8 +107,9 @@ def seed_transition(s: Array, b: Array, admin_move: bool) -> int:
     s[PLACEMENT_ALLOWS_SLIDING] = 1.0
     s[HAS_BEGIN_POS] = 1.0
     s[BEGIN_CELL] = b[B_CELL]
-    copy_position(s, BEGIN_POS, b, B_POSITION)
-    copy_position(s, END_POS, b, B_WANTED)
+    copy_place(s, BEGIN_POS, b, B_POSITION)
+    copy_place(s, END_POS, b, B_WANTED)
+    copy_position(s, CURR_POS, b, B_POSITION)
     init_path(s)
     if has_bit(b, B_TRANSIENT, STATIONARY_STUCK_TS):
         s[FRAMES_STATIONARY_FALL] = 3.0
@@ -130,7 +132,7 @@ def seed_placement(s: Array, b: Array, p: Array) -> None:
     s[PLACEMENT_ALLOWS_SLIDING] = p[P_SLIDE]
     s[DO_NOT_LOAD_CELLS] = p[P_DO_NOT_LOAD]
     s[BEGIN_CELL] = p[P_CELL]
-    load_pose(s, END_POS, p, P_POSE)
+    load_pose(s, CURR_POS, p, P_POSE)
     init_path(s)
 
 

@@ -111,6 +111,14 @@ def copy_position(a: Array, at: int, b: Array, source: int) -> None:
 
 
 @inlined
+def copy_place(a: Array, at: int, b: Array, source: int) -> None:
+    """Copy all of a position but its matrix, for whom nobody asks for that."""
+    a[unsigned(at)] = b[unsigned(source)]
+    copy_four(a, at + QUATERNION, b, source + QUATERNION)
+    copy_vector(a, at + ORIGIN, b, source + ORIGIN)
+
+
+@inlined
 def copy(a: Array, at: int, b: Array, source: int, size: int) -> None:
     """Copy a block of `size` consecutive numbers."""
     for i in range(size):

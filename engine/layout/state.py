@@ -38,18 +38,12 @@ LOCAL_LOW_POINT: Final = _row.field("local_low_point", 3)
 GLOBAL_SPHERE: Final = _row.field("global_sphere", MAX_SPHERES, SPHERE_SIZE)
 GLOBAL_LOW_POINT: Final = _row.field("global_low_point", 3)
 LOCALSPACE_SPHERE: Final = _row.field("localspace_sphere", MAX_SPHERES, SPHERE_SIZE)
-LOCALSPACE_LOW_POINT: Final = _row.field("localspace_low_point", 3)
 LOCALSPACE_CURR_CENTER: Final = _row.field("localspace_curr_center", MAX_SPHERES, 3)
 GLOBAL_CURR_CENTER: Final = _row.field("global_curr_center", MAX_SPHERES, 3)
-LOCALSPACE_POS: Final = _row.field("localspace_pos", POSITION_SIZE)
-LOCALSPACE_Z: Final = _row.field("localspace_z", 3)
 BEGIN_CELL: Final = _row.field("begin_cell")
 """Cells are held as their index in the world; `NO_CELL` is retail's null pointer."""
 HAS_BEGIN_POS: Final = _row.field("has_begin_pos")
-BEGIN_POS: Final = _row.field("begin_pos", POSITION_SIZE)
-END_POS: Final = _row.field("end_pos", POSITION_SIZE)
 CURR_CELL: Final = _row.field("curr_cell")
-CURR_POS: Final = _row.field("curr_pos", POSITION_SIZE)
 GLOBAL_OFFSET: Final = _row.field("global_offset", 3)
 STEP_UP: Final = _row.field("step_up")
 STEP_UP_NORMAL: Final = _row.field("step_up_normal", 3)
@@ -60,20 +54,15 @@ INSERT_TYPE: Final = _row.field("insert_type")
 STEP_DOWN: Final = _row.field("step_down")
 BACKUP: Final = _row.field("backup")
 BACKUP_CELL: Final = _row.field("backup_cell")
-BACKUP_CHECK_POS: Final = _row.field("backup_check_pos", POSITION_SIZE)
 OBSTRUCTION_ETHEREAL: Final = _row.field("obstruction_ethereal")
 HITS_INTERIOR_CELL: Final = _row.field("hits_interior_cell")
 BLDG_CHECK: Final = _row.field("bldg_check")
 WALKABLE_ALLOWANCE: Final = _row.field("walkable_allowance")
 WALK_INTERP: Final = _row.field("walk_interp")
 STEP_DOWN_AMT: Final = _row.field("step_down_amt")
-WALKABLE_CHECK_POS: Final = _row.field("walkable_check_pos", SPHERE_SIZE)
 WALKABLE: Final = _row.field("walkable")
 """Offset of the polygon's record in the world's floats; `NO_POLYGON` is retail's null pointer."""
 CHECK_WALKABLE: Final = _row.field("check_walkable")
-WALKABLE_UP: Final = _row.field("walkable_up", 3)
-WALKABLE_POS: Final = _row.field("walkable_pos", POSITION_SIZE)
-WALKABLE_SCALE: Final = _row.field("walkable_scale")
 CELL_ARRAY_VALID: Final = _row.field("cell_array_valid")
 NEG_STEP_UP: Final = _row.field("neg_step_up")
 NEG_COLLISION_NORMAL: Final = _row.field("neg_collision_normal", 3)
@@ -116,21 +105,13 @@ CELLS_LISTED: Final = _row.field("cells_listed")
 OBJECTS_TESTED: Final = _row.field("objects_tested")
 STATUS: Final = _row.field("status")
 """`STATUS_OK`, or which bound of the engine was violated."""
-REQUESTED_NORMAL: Final = _row.field("requested_normal", 3)
-"""World normal that goes with the answer NEEDS_STEP_UP."""
 CONTACT_POINT: Final = _row.field("contact_point", 3)
 """Last projection of a sphere on a polygon's plane; retail's out argument contact_pt."""
 LOCALSPACE_OF: Final = _row.field("localspace_of")
 """Where in the world's floats the position lies in whose space the row's `localspace` fields are, with the
 current position as it is; 0 for none."""
-LOCALSPACE_INVERSE: Final = _row.field("localspace_inverse")
-"""One by the scale of what lies in that space."""
 LOCALSPACE_HAS_CURRENT: Final = _row.field("localspace_has_current")
 """Whether sphere 0's current centre is in that space, too."""
-SAVED_POS: Final = _row.field("saved_pos", POSITION_SIZE)
-"""The local in which CTransition::check_walkable keeps the check position (WK-3)."""
-SCRATCH_FRAME: Final = _row.field("scratch_frame", POSITION_SIZE)
-"""The frame that find_placement_pos turns around."""
 PLAN: Final = _row.field("plan")
 """Which shortcuts may be taken: bits `PLAN_PORTALS`, ... (`engine.plan`)."""
 SKIPPED_SIZE: Final = frozen(6)
@@ -141,6 +122,35 @@ walks they were."""
 TRACE_LENGTH: Final = _row.field("trace_length")
 TRACE_CAPACITY: Final = _row.field("trace_capacity")
 """Places for trace characters behind the row; 0 turns the trace off."""
+
+CLEARED_SIZE: Final = frozen(_row.size)
+"""What is before this is cleared for each transition.
+
+What follows is half of the row: positions, and what goes with them. A transition reads none of it before it
+has written it.
+"""
+
+# --- not cleared -----------------------------------------------------------------------------------
+LOCALSPACE_LOW_POINT: Final = _row.field("localspace_low_point", 3)
+LOCALSPACE_POS: Final = _row.field("localspace_pos", POSITION_SIZE)
+LOCALSPACE_Z: Final = _row.field("localspace_z", 3)
+BEGIN_POS: Final = _row.field("begin_pos", POSITION_SIZE)
+"""Where the mover began, and where it wants to be: nobody asks for their matrices, which are not there."""
+END_POS: Final = _row.field("end_pos", POSITION_SIZE)
+CURR_POS: Final = _row.field("curr_pos", POSITION_SIZE)
+BACKUP_CHECK_POS: Final = _row.field("backup_check_pos", POSITION_SIZE)
+WALKABLE_CHECK_POS: Final = _row.field("walkable_check_pos", SPHERE_SIZE)
+WALKABLE_UP: Final = _row.field("walkable_up", 3)
+WALKABLE_POS: Final = _row.field("walkable_pos", POSITION_SIZE)
+WALKABLE_SCALE: Final = _row.field("walkable_scale")
+REQUESTED_NORMAL: Final = _row.field("requested_normal", 3)
+"""World normal that goes with the answer NEEDS_STEP_UP."""
+LOCALSPACE_INVERSE: Final = _row.field("localspace_inverse")
+"""One by the scale of what lies in that space."""
+SAVED_POS: Final = _row.field("saved_pos", POSITION_SIZE)
+"""The local in which CTransition::check_walkable keeps the check position (WK-3)."""
+SCRATCH_FRAME: Final = _row.field("scratch_frame", POSITION_SIZE)
+"""The frame that find_placement_pos turns around."""
 
 PLAN_PORTALS: Final = frozen(1)
 PLAN_OBJECTS: Final = frozen(2)

@@ -59,8 +59,9 @@ def transition(question: Query) -> Fields:
 def _at_check_pos(question: Query) -> Array:
     """Return a row of state at current position `from` and check position `to`, in no cell."""
     state = np.zeros(at.STATE_SIZE, dtype=np.float64)
-    query.prepare(state, numbers_of(query_row(question.inputs)))
-    path.set_check_pos(state, at.END_POS, float(at.NO_CELL))
+    numbers = numbers_of(query_row(question.inputs))
+    query.prepare(state, numbers)
+    query.go_to_end(state, numbers, float(at.NO_CELL))
     return state
 
 

@@ -16,8 +16,7 @@ from engine import layout as at
 from engine.compiling import terrain
 from engine.constants import STATE_NAMES
 from engine.kernels import land_cells, land_defs, object_info, position
-from engine.kernels.path import set_check_pos
-from engine.kernels.query import prepare, report, set_path_fields
+from engine.kernels.query import go_to_end, prepare, report, set_path_fields
 from engine.tracing import runnable
 
 if TYPE_CHECKING:
@@ -116,7 +115,7 @@ class _LandCall:
         take_path(given, inputs["path"])
         numbers = numbers_of(given)
         runnable(prepare)(self.row, numbers)
-        runnable(set_check_pos)(self.row, at.END_POS, float(self.cell))
+        runnable(go_to_end)(self.row, numbers, float(self.cell))
         runnable(set_path_fields)(self.row, numbers)
 
     def outcome(self, ts: int) -> Fields:
