@@ -18,21 +18,25 @@ from typing import TYPE_CHECKING, Final, TypeAlias
 
 from engine.constants import frozen
 from engine.kernels.ahead import bring_near
-from engine.kernels.cell_array import ints_of, position_of
+from engine.kernels.cell_array import ints_of, is_land, position_of
+from engine.kernels.clearance import bring_clearance
 from engine.kernels.compile import inlined, kernel
 from engine.kernels.indexing import unsigned
 from engine.kernels.lattice import NOWHERE, cube_at, half, is_unknown, listed, lists_of
+from engine.kernels.plan_flight import into_cell
 from engine.kernels.position import block_offset
 from engine.kernels.vector import load
 from engine.layout import (
     CELL_TREE,
-    MATRIX,
     NO_TREE,
-    ORIGIN,
     POLYGON_CORNERS,
     POSE_ORIGIN,
+    Q_BEGIN_CELL,
     Q_END,
+    Q_SCALE,
     Q_SPHERES,
+    Q_START,
+    SPHERE_SIZE,
     WORLD_CELLS,
 )
 
@@ -52,6 +56,8 @@ MOST: Final = frozen(4)
 """Polygons of a list that are brought near, at most."""
 LARGE: Final = frozen(1 << 17)
 """Numbers of a world that no second cache has room for: a megabyte. A smaller one is in it anyway."""
+HUGE: Final = frozen(1 << 19)
+"""Numbers of a world of which not even the clearances, a tenth of it or so, stay in a near cache."""
 
 
 @inlined
@@ -61,18 +67,17 @@ def is_large(wf: Array, wi: Ints) -> bool:
 
 
 @inlined
+def is_huge(wf: Array, wi: Ints) -> bool:
+    """Say whether it pays to bring near what a flight looks up, which is little."""
+    return len(wf) + len(wi) > HUGE
+
+
+@inlined
 def _place(wf: Array, p: int, q: Array) -> Vector:
     """Return about where a query's first sphere is in the space of the position at ``wf[p]``."""
     x, y, z = load(q, Q_END + POSE_ORIGIN)
-    ox, oy, oz = load(wf, p + ORIGIN)
     bx, by = block_offset(wf[p], q[Q_END])
-    dx, dy, dz = bx + x - ox, by + y - oy, z + q[Q_SPHERES + 2] - oz
-    m = unsigned(p + MATRIX)
-    return (
-        wf[m] * dx + wf[m + 1] * dy + wf[m + 2] * dz,
-        wf[m + 3] * dx + wf[m + 4] * dy + wf[m + 5] * dz,
-        wf[m + 6] * dx + wf[m + 7] * dy + wf[m + 8] * dz,
-    )
+    return into_cell(wf, p, bx + x, by + y, z + q[Q_SPHERES + 2])
 
 
 @inlined
@@ -119,6 +124,24 @@ def _bring_polygons(wf: Array, wi: Ints, first: int, end: int, lists: int) -> No
     """Take the last: of each polygon, bring what a sphere is tested against first."""
     for i in range(first, min(end, first + MOST)):
         bring_near(wf, half(wi, lists, i), POLYGON_CORNERS)
+
+
+@inlined
+def approach_flight(wf: Array, wi: Ints, q: Array) -> None:
+    """Bring near what says whether the way of a mover that may fly is clear (`engine.kernels.clearance`).
+
+    `q` is the row of a move whose turn comes soon.
+    """
+    cell = q[Q_BEGIN_CELL]
+    if not 0.0 <= cell < wi[WORLD_CELLS] or is_land(wi, int(cell)):
+        return
+    index = int(cell)
+    p = position_of(wi, index)
+    x, y, z = load(q, Q_START + POSE_ORIGIN)
+    tx, ty, tz = load(q, Q_END + POSE_ORIGIN)
+    up = q[Q_SCALE] * (q[Q_SPHERES + 2] + q[Q_SPHERES + SPHERE_SIZE + 2])
+    x, y, z = into_cell(wf, p, 0.5 * (x + tx), 0.5 * (y + ty), 0.5 * (z + tz + up))
+    bring_clearance(wf, wi, index, x, y, z)
 
 
 @kernel

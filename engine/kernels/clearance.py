@@ -10,10 +10,11 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
+from engine.kernels.ahead import bring_near
 from engine.kernels.broad import tree_beyond
 from engine.kernels.compile import entry, inlined, kernel
 from engine.kernels.indexing import unsigned
-from engine.kernels.octets import octet
+from engine.kernels.octets import BYTES, octet
 from engine.layout import (
     CLEARANCE_CORNER,
     CLEARANCE_COUNTS,
@@ -53,6 +54,39 @@ def _room(wi: Ints, cube: int, r: float, x: float, y: float, z: float) -> float:
 
 
 @inlined
+def _cubes_about(
+    wf: Array, g: int, x: float, y: float, z: float
+) -> tuple[bool, float, float, float, int, int]:
+    """Say whether a point has cubes of a grid on all sides; where it is, in cubes; how many y and z have.
+
+    `g`: where the grid's record is. NaN has none on any side.
+    """
+    scale = wf[g + CLEARANCE_PER_METRE]
+    u = scale * (x - wf[g + CLEARANCE_CORNER])
+    v = scale * (y - wf[g + CLEARANCE_CORNER + 1])
+    w = scale * (z - wf[g + CLEARANCE_CORNER + 2])
+    nu, nv, nw = wf[g + CLEARANCE_COUNTS], wf[g + CLEARANCE_COUNTS + 1], wf[g + CLEARANCE_COUNTS + 2]
+    inside = 1.0 <= u < nu - 1.0 and 1.0 <= v < nv - 1.0 and 1.0 <= w < nw - 1.0
+    return inside, u, v, w, int(nv), int(nw)
+
+
+@inlined
+def bring_clearance(wf: Array, wi: Ints, cell: int, x: float, y: float, z: float) -> None:
+    """Have the cubes brought near that `known_clear` looks at for a ball about a point."""
+    g = unsigned(wi[unsigned(wi[WORLD_CLEARANCES] + cell)])
+    if g == NO_CLEARANCE:
+        return
+    inside, u, v, w, ny, nz = _cubes_about(wf, g, x, y, z)
+    if not inside:
+        return
+    i, j = int(u), int(v)
+    first = int(wf[g + CLEARANCE_LEVELS]) + int(w)
+    bring_near(wi, (first + (i * ny + j) * nz) // BYTES, 1)
+    bring_near(wi, (first + (_beside(i, _off(u, i)) * ny + j) * nz) // BYTES, 1)
+    bring_near(wi, (first + (i * ny + _beside(j, _off(v, j))) * nz) // BYTES, 1)
+
+
+@inlined
 def known_clear(wf: Array, wi: Ints, cell: int, x: float, y: float, z: float, r: float) -> bool:
     """Say whether a ball, in an environment cell's own frame, is known to be clear of the cell's tree.
 
@@ -67,17 +101,13 @@ def known_clear(wf: Array, wi: Ints, cell: int, x: float, y: float, z: float, r:
     g = unsigned(wi[unsigned(wi[WORLD_CLEARANCES] + cell)])
     if g == NO_CLEARANCE:
         return False
-    scale = wf[g + CLEARANCE_PER_METRE]
-    u = scale * (x - wf[g + CLEARANCE_CORNER])
-    v = scale * (y - wf[g + CLEARANCE_CORNER + 1])
-    w = scale * (z - wf[g + CLEARANCE_CORNER + 2])
-    nu, nv, nw = wf[g + CLEARANCE_COUNTS], wf[g + CLEARANCE_COUNTS + 1], wf[g + CLEARANCE_COUNTS + 2]
-    if not (1.0 <= u < nu - 1.0 and 1.0 <= v < nv - 1.0 and 1.0 <= w < nw - 1.0):
+    inside, u, v, w, ny, nz = _cubes_about(wf, g, x, y, z)
+    if not inside:
         return False
-    i, j, k, ny, nz = int(u), int(v), int(w), int(nv), int(nw)
+    i, j, k = int(u), int(v), int(w)
     dx, dy, dz = _off(u, i), _off(v, j), _off(w, k)
     ex, ey, ez = CLEARANCE_STEPS - abs(dx), CLEARANCE_STEPS - abs(dy), CLEARANCE_STEPS - abs(dz)
-    steps = CLEARANCE_STEPS * scale * r
+    steps = CLEARANCE_STEPS * wf[g + CLEARANCE_PER_METRE] * r
     levels = int(wf[g + CLEARANCE_LEVELS])
     column = levels + (i * ny + j) * nz
     beside_x, beside_y = (_beside(i, dx) * ny + j) * nz, (i * ny + _beside(j, dy)) * nz

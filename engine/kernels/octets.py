@@ -8,11 +8,14 @@ from llvmlite import ir
 from numba import types
 from numba.extending import intrinsic
 
+from engine.constants import frozen
 from engine.kernels.compile import inlined_entry
 
 if TYPE_CHECKING:
     from engine.kernels.types import Ints
 
+BYTES: Final = frozen(8)
+"""In an integer."""
 _BYTE: Final = ir.IntType(8)
 
 

@@ -85,7 +85,7 @@ def _objects_beyond(
 
 
 @inlined
-def _into_cell(wf: Array, p: int, x: float, y: float, z: float) -> Vector:
+def into_cell(wf: Array, p: int, x: float, y: float, z: float) -> Vector:
     """Take a point of a cell's block into its frame; no rounding is retail's."""
     m, o = unsigned(p + MATRIX), unsigned(p + ORIGIN)
     x, y, z = x - wf[o], y - wf[o + 1], z - wf[o + 2]
@@ -107,7 +107,7 @@ def _cell_rounding(wf: Array, p: int) -> float:
 def _ball_into_cell(wf: Array, wi: Ints, cell: int, x: float, y: float, z: float, r: float) -> Sphere:
     """Take a ball of a cell's block into the cell's frame, larger by what roundings may misplace it."""
     p = position_of(wi, cell)
-    lx, ly, lz = _into_cell(wf, p, x, y, z)
+    lx, ly, lz = into_cell(wf, p, x, y, z)
     return lx, ly, lz, r + _cell_rounding(wf, p)
 
 

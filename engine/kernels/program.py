@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, Final
 from engine.body_layout import B_RECORDS, B_STATUS, BODY_SIZE
 from engine.constants import frozen
 from engine.kernels.ahead import bring_near, bring_to_write
-from engine.kernels.approach import NO_STEPS, STEPS, approach, is_large
+from engine.kernels.approach import NO_STEPS, STEPS, approach, approach_flight, is_huge, is_large
 from engine.kernels.collisions import collide
 from engine.kernels.compile import entry, inlined, kernel
 from engine.kernels.object_calls import meet
@@ -30,6 +30,7 @@ from engine.kernels.tick_gates import update
 from engine.kernels.tick_placement import place
 from engine.layout import (
     COLLISION_INFO_SIZE,
+    PLAN_FLIGHT,
     PLAN_WALKS,
     Q_BEGIN_CELL,
     Q_COLLISION_INFO,
@@ -60,13 +61,14 @@ PLACE: Final = frozen(5)
 """Each row is a body, and each of ``out`` its placement: `engine.kernels.tick_placement.place`."""
 
 AHEAD: Final = frozen(2)
-"""How many moves before its turn a row is brought near: a free flight is over before its rows have come.
+"""How many moves before its turn a row is brought near: a free flight is over before its rows have come. What
+it looks up of a huge world is brought near as early, and its row earlier still.
 
 The row of results is brought when half of the work before is done: more than a dozen lines at a time, and the
 processor waits for the first of them."""
 FAR_AHEAD: Final = frozen(4)
-"""The same for the rows of calls and bodies; and before the first step of an approach reads it, if there is
-one (`engine.kernels.approach`)."""
+"""The same for the rows of calls and bodies, and of flights through a huge world; and before the first step
+of an approach reads it, if there is one (`engine.kernels.approach`)."""
 _OF_MOVES: Final = frozen(Q_COLLISION_INFO + COLLISION_INFO_SIZE)
 """Numbers of a query's row that a move reads: the rest is for single calls."""
 
@@ -134,15 +136,21 @@ def _resolve_some(
     first: int,
     end: int,
     last: int,
+    fly: bool,
 ) -> int:
     """Answer some moves; return how many could not be. A loop of their own spares them the other jobs.
 
-    `end`: of those that are answered now; `last`: of those that are brought near.
+    `end`: of those that are answered now; `last`: of those that are brought near; `fly`: whether it pays to
+    bring near what flights look up.
     """
     failed = 0
     for k in range(first, end):
         i, later = turn(order, k), turn(order, min(k + AHEAD, last - 1))
-        bring_near(rows, QUERY_SIZE * later, _OF_MOVES)
+        if fly:
+            bring_near(rows, QUERY_SIZE * turn(order, min(k + FAR_AHEAD, last - 1)), _OF_MOVES)
+            approach_flight(wf, wi, rows[later])
+        else:
+            bring_near(rows, QUERY_SIZE * later, _OF_MOVES)
         if is_strange_move(wi, rows[i]):
             _refuse(out[i])
         else:
@@ -165,7 +173,7 @@ def _resolve_approached(
         bring_near(rows, QUERY_SIZE * turn(order, min(k + STEPS + AHEAD, last - 1)), _OF_MOVES)
         coming = rows[turn(order, min(k + STEPS, last - 1))]
         steps = approach(wf, wi, coming, coming[Q_BEGIN_CELL], steps)
-        failed += _resolve_some(wf, wi, s, rows, out, order, k, k + 1, last)
+        failed += _resolve_some(wf, wi, s, rows, out, order, k, k + 1, last, False)
     return failed
 
 
@@ -195,7 +203,8 @@ def _do_some(
     if job == RESOLVE and approaches:
         return _resolve_approached(wf, wi, s, rows, out, order, first, last)
     if job == RESOLVE:
-        return _resolve_some(wf, wi, s, rows, out, order, first, last, last)
+        flies = is_huge(wf, wi) and allows(s, PLAN_FLIGHT)
+        return _resolve_some(wf, wi, s, rows, out, order, first, last, last, flies)
     failed = 0
     steps = NO_STEPS
     ahead = FAR_AHEAD + STEPS if approaches else FAR_AHEAD

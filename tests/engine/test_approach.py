@@ -9,16 +9,19 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 import pytest
 
-from conformance.bench.sampling import contact_walk, tree_calls
+from conformance.bench.sampling import contact_walk, free_flight, tree_calls
 from conformance.bench.scenes import CELL, make_scene
 from conformance.bench.spots import Surfaces
 from engine import Cell, Pose, QueryError, World, find_collisions_many, resolve_many
 from engine import layout as at
 from engine.kernels.ahead import bring_near
-from engine.kernels.approach import MOST, NO_STEPS, STEPS, approach, is_large
+from engine.kernels.approach import MOST, NO_STEPS, STEPS, approach, approach_flight, is_huge, is_large
 from engine.kernels.collisions import collide
+from engine.kernels.flight import fly_through
 from engine.kernels.lattice import NOWHERE, cube_at, half, is_unknown, listed, lists_of, nothing_near
+from engine.kernels.octets import BYTES, octet
 from engine.memory import rows_as_numbers
+from engine.plan import Plan
 from engine.probes import count_reordered
 from engine.tracing_interpreter import Interpreter
 
@@ -179,3 +182,90 @@ def test_only_in_a_large_world_calls_are_approached(building: BenchScene) -> Non
     room = make_scene("room").world
     assert large(building.world.floats, building.world.ints)
     assert not large(room.floats, room.ints)
+
+
+def brought_for_flight(world: World, row: Array) -> list[int]:
+    """Return which of the world's integers are brought near for a move through the air."""
+    floats, ints = world.arrays
+    places: list[int] = []
+
+    def note(array: Array, first: int, _: int) -> None:
+        assert array is ints
+        places.append(int(first))
+
+    with np.errstate(all="ignore"):
+        step: Any = Interpreter({bring_near: note}).function(approach_flight)
+        step(floats, ints, row)
+    return places
+
+
+def looked_at_in_flight(world: World, row: Array) -> list[int]:
+    """Return which of the world's integers hold the cubes that a move looks at, one after the other."""
+    floats, ints = world.arrays
+    read: Any = Interpreter({}).function(octet)
+    places: list[int] = []
+
+    def note(numbers: Array, place: int) -> int:
+        places.append(int(place) // int(BYTES))
+        byte: int = read(numbers, place)
+        return byte
+
+    watched: Any = Interpreter({octet: note}).function(fly_through)
+    out, after = np.zeros(at.RESULT_SIZE), np.zeros(at.RESULT_SIZE)
+    assert watched(floats, ints, world.new_row(plan=Plan()), row, out, after)
+    return places
+
+
+def test_what_a_flight_looks_at_is_brought(building: BenchScene) -> None:
+    """The four cubes, of which the one above or below lies beside the middle one, and nothing else."""
+    building.world.prepare()
+    rows = rows_as_numbers(free_flight(building, np.random.default_rng(4), 100).rows)
+    for row in rows:
+        middle, beside, east_west, north_south = looked_at_in_flight(building.world, row)[:4]
+        assert brought_for_flight(building.world, row) == [middle, east_west, north_south]
+        assert abs(beside - middle) <= 1
+
+
+@pytest.mark.parametrize("place", NOT_A_PLACE)
+def test_nothing_is_brought_for_a_flight_to_nowhere(building: BenchScene, place: float) -> None:
+    """A way whose middle is no number, or beyond all cubes, is not looked up."""
+    building.world.prepare()
+    rows = free_flight(building, np.random.default_rng(4), 1).rows
+    rows["end"][:, -1] = place
+    assert brought_for_flight(building.world, rows_as_numbers(rows)[0]) == []
+
+
+@pytest.mark.parametrize("cell", NOT_A_CELL)
+def test_nothing_is_brought_for_a_flight_in_no_cell(building: BenchScene, cell: float) -> None:
+    """A row that names no cell is refused in its turn."""
+    building.world.prepare()
+    rows = free_flight(building, np.random.default_rng(4), 1).rows
+    rows["begin_cell"] = cell
+    assert brought_for_flight(building.world, rows_as_numbers(rows)[0]) == []
+
+
+def test_only_in_a_huge_world_flights_are_approached(building: BenchScene) -> None:
+    """What a flight looks up of sixteen rooms stays in a cache, what it does of a dungeon doesn't."""
+    huge: Any = Interpreter({}).function(is_huge)
+    dungeon = make_scene("dungeon").world
+    assert huge(dungeon.floats, dungeon.ints)
+    assert not huge(building.world.floats, building.world.ints)
+
+
+def test_strangers_between_flights_change_no_answer() -> None:
+    """In a dungeon each flight is answered as it is alone, whoever comes after it."""
+    dungeon = make_scene("dungeon")
+    dungeon.world.prepare()
+    rows = free_flight(dungeon, np.random.default_rng(5), CALLS).rows
+    alone = np.concatenate([resolve_many(dungeon.world, rows[i : i + 1]) for i in range(len(rows))])
+    for k, cell in enumerate(NOT_A_CELL):
+        rows["begin_cell"][7 + 10 * k] = cell
+    for k, place in enumerate(NOT_A_PLACE):
+        rows["end"][8 + 10 * k, -3:] = place
+    others = np.ones(len(rows), dtype=bool)
+    others[7 : 7 + 10 * len(NOT_A_CELL) : 10] = others[8 : 8 + 10 * len(NOT_A_PLACE) : 10] = False
+    out = np.zeros(len(rows), dtype=at.RESULT_DTYPE)
+    with pytest.raises(QueryError, match="row 17"):
+        resolve_many(dungeon.world, rows, out=out)
+    assert out[others].tobytes() == alone[others].tobytes()
+    assert (out["skipped"][others, 3] > 0).all()
