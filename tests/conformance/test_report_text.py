@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 
 import pytest
+from shipped_cases import shipped_cases
 from shipped_vectors import VECTORS, records
 
 from conformance.compare import Difference, Tolerance
@@ -152,3 +153,11 @@ def test_every_shipped_record_has_a_scene_line() -> None:
         "walk.jsonl",
     ):
         assert all(scene_line(record.query).startswith(record.query.op) for record in records(VECTORS / file))
+
+
+def test_every_built_in_query_has_a_scene_line() -> None:
+    """An engine may fail any of them; a world that a case spells out may have no name."""
+    queries = [query for case in shipped_cases().values() for query in case.queries]
+    lines = [scene_line(query) for query in queries]
+    assert all(line.startswith(query.op) for line, query in zip(lines, queries, strict=True))
+    assert any("world world with" in line for line in lines)

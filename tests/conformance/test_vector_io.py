@@ -7,6 +7,7 @@ import math
 from typing import TYPE_CHECKING, Any
 
 import pytest
+from shipped_cases import shipped_cases
 from shipped_vectors import VECTORS, library, one_of_each, records
 
 from conformance.compare import differences
@@ -251,6 +252,20 @@ def test_writing_twice_adds_no_world(tmp_path: Path) -> None:
     write_vectors(tmp_path / "three.jsonl", [(again.id, again.query, again.expected)])
     assert (tmp_path / "three.jsonl").read_bytes() == (tmp_path / "one.jsonl").read_bytes()
     assert len((tmp_path / "worlds.jsonl").read_text(encoding="utf-8").splitlines()) == 1
+
+
+def test_every_built_in_query_is_written(tmp_path: Path) -> None:
+    """Also one whose world has no name: it is called a world, and told from others by what it holds."""
+    queries = [query for case in shipped_cases().values() for query in case.queries]
+    expected = {record.query.op: record.expected for record in one_of_each()}
+    asked = [
+        (f"q{number}", query, expected[query.op])
+        for number, query in enumerate(queries)
+        if query.op in expected
+    ]
+    assert write_vectors(tmp_path / "all.jsonl", asked) > 1000
+    names = {json.loads(line)["name"] for line in (tmp_path / "worlds.jsonl").read_text("utf-8").splitlines()}
+    assert len([name for name in names if name.startswith("world-")]) > 1
 
 
 def test_writing_beside_a_broken_geometry_file(tmp_path: Path) -> None:
