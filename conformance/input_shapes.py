@@ -60,6 +60,8 @@ BLOCKS: Final[Mapping[str, tuple[str, ...]]] = MappingProxyType(
     }
 )
 """Keys of a block, with the keys that it cannot do without."""
+_WORLD: Final = ("landblocks", "cells", "buildings", "objects", "shadow")
+"""What a world that is spelled out cannot do without; elsewhere a world is a name."""
 ENDS: Final = frozenset({"from", "to"})
 """Keys of a pose in most operations, and of a rotation in one."""
 INTEGERS: Final = range(-(1 << 31), 1 << 32)
@@ -93,6 +95,10 @@ def check_shape(key: str, value: Any, path: str) -> None:
         raise FieldError(path, describe(value), "a number")
     elif key in ENDS and isinstance(value, dict):
         _check_block(value, _POSE, path)
+    elif key == "world" and isinstance(value, dict):
+        _check_block(value, _WORLD, path)
+    elif key == "shadow":
+        _check_shadow(value, path)
 
 
 def check_atom(key: str, value: Any, path: str) -> None:
@@ -124,6 +130,14 @@ def _check_block(value: Any, needed: tuple[str, ...], path: str) -> None:
             raise FieldError(f"{path}.{key}", "nothing", "a value")
     if needed == _POSE and not isinstance(value["cell"], int):
         raise FieldError(f"{path}.cell", describe(value["cell"]), "a cell id")
+
+
+def _check_shadow(value: Any, path: str) -> None:
+    _check_block(value, (), path)
+    for cell, ids in value.items():
+        if not (cell.isascii() and cell.isdecimal() and int(cell) in INTEGERS):
+            raise FieldError(path, f"the key {cell!r}", "the id of a cell, in decimal")
+        _list(ids, f"{path}.{cell}")
 
 
 def _list(value: Any, path: str) -> list[Any] | tuple[Any, ...]:

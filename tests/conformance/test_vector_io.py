@@ -112,6 +112,31 @@ def test_wrong_inputs(change: dict[str, Any], path: str, found: str) -> None:
     assert (caught.value.path, caught.value.found) == (path, found)
 
 
+NOTHING = {"landblocks": [], "cells": [], "buildings": [], "objects": [], "shadow": {}}
+
+
+@pytest.mark.parametrize(
+    ("change", "path", "found"),
+    [
+        ({"shadow": {"0xA9B40031": []}}, "world.shadow", "the key '0xA9B40031'"),
+        ({"shadow": {"4294967296": []}}, "world.shadow", "the key '4294967296'"),
+        ({"shadow": {"1": 7}}, "world.shadow.1", "the number 7"),
+        ({"shadow": []}, "world.shadow", "a list of 0"),
+    ],
+    ids=["hexadecimal", "33 bits", "no list", "no block"],
+)
+def test_wrong_shadow_lists(change: dict[str, Any], path: str, found: str) -> None:
+    """The keys of a world's shadow lists are ids of cells, as JSON's keys are texts in decimal."""
+    asked = {"cell": 1, "point": [0, 0, 0]}
+    with pytest.raises(FieldError) as caught:
+        read_inputs("point_in_cell", {"world": {**NOTHING, **change}, **asked})
+    assert (caught.value.path, caught.value.found) == (path, found)
+    for key in NOTHING:
+        rest = {other: value for other, value in NOTHING.items() if other != key}
+        with pytest.raises(FieldError, match=f"world.{key}: found nothing"):
+            read_inputs("point_in_cell", {"world": rest, **asked})
+
+
 def test_an_unknown_input_hints_at_the_nearest() -> None:
     """A mistyped input names the one that was meant."""
     with pytest.raises(FieldError, match="perhaps 'from_cell'"):
