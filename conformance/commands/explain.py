@@ -35,7 +35,7 @@ def configure(parser: argparse.ArgumentParser) -> None:
         "--tick",
         type=whole_from(0),
         metavar="N",
-        help="the tick of a walk, from 0; a walk is told tick by tick",
+        help="the tick of a walk, from 0; a walk of several is told tick by tick",
     )
     parser.add_argument(
         "--depth", type=whole_from(1), metavar="N", help="levels of calls to show (default: all)"

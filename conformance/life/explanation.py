@@ -63,20 +63,23 @@ def explain(query: Query, tick: int | None = None, say: Say | None = None) -> Ex
     query : Query
         What is asked.
     tick : int, optional
-        Of a walk, the tick to tell of: what the walk up to it does, and the walk before it does not.
+        Of a walk, the tick to tell of: what the walk up to it does, and the walk before it does not. A walk
+        of one tick needs none.
     say : callable, optional
         Is told how far it has come.
 
     Raises
     ------
     NoTickError
-        There is no such tick, or the query is a walk and none is given.
+        There is no such tick, or the query is a walk of several and none is given.
     """
     ticks = query.inputs[TICKS] if query.op in STEP_OF else ()
     if tick is None and not ticks:
         return _run(query, say)
     if not ticks:
         raise NoTickError(f"{query.label} has no ticks: it is no walk")
+    if len(ticks) == 1 and tick is None:
+        tick = 0
     if tick is None or tick >= len(ticks):
         raise NoTickError(f"{query.label} has {len(ticks)} ticks: choose one with --tick 0…{len(ticks) - 1}")
     before, whole = _run(_of_ticks(query, tick), say), _run(_of_ticks(query, tick + 1), say)
