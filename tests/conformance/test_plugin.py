@@ -29,6 +29,27 @@ query: {{op: frame_cache, rotation: [1, 0, 0, 0]}}
 expect: {{m: [1, 0, 0, 0, 1, 0, 0, 0, 1]}}
 """
 CONFTEST = "from conformance.conftest import pytest_addoption\n"
+OFF_BY_A_METRE = """\
+from conformance.candidates.oracle_candidate import OracleCandidate
+from conformance.query import Result
+
+
+def moved(value):
+    if isinstance(value, dict):
+        return {key: moved(inner) for key, inner in value.items()}
+    if isinstance(value, (list, tuple)):
+        return [moved(inner) for inner in value]
+    return value + 1.0 if isinstance(value, float) else value
+
+
+class Engine:
+    def __init__(self):
+        self._oracle = OracleCandidate()
+
+    def answer(self, query):
+        outcome = self._oracle.answer(query)
+        return Result(moved(outcome.fields)) if isinstance(outcome, Result) else outcome
+"""
 
 
 @pytest.fixture
@@ -116,6 +137,17 @@ def test_the_bug_that_this_suite_began_with(run: pytest.Pytester) -> None:
             f"FAILED *::origin-step-down-touching - {reason}",
         ]
     )
+
+
+def test_an_engine_that_is_wrong_everywhere_is_told_case_by_case(run: pytest.Pytester) -> None:
+    """Whatever a case spells out or leaves out, its failure is told, and the run goes on to the next."""
+    run.makepyfile(off_by_a_metre=OFF_BY_A_METRE)
+    candidate = "mod:off_by_a_metre:Engine"
+    result = run.runpytest_subprocess("--cases", str(BUILT_IN), "--candidate", candidate, "--poses", "0")
+    assert result.ret == pytest.ExitCode.TESTS_FAILED
+    assert result.parseoutcomes()["failed"] > 1000
+    result.stdout.no_fnmatch_line("*INTERNALERROR*")
+    result.stdout.fnmatch_lines(["*scene: world_transition; world world with 1 landblock, 1 object;*"])
 
 
 def test_a_failure_on_a_terminal_of_few_characters(

@@ -145,16 +145,21 @@ def test_nothing_is_brought_for_a_cell_without_a_tree(calls: Rows) -> None:
     assert brought(World([Cell(CELL, Pose(CELL), None)]), rows) == [[]] * (len(rows) + STEPS - 1)
 
 
+def put_strangers(rows: Rows, cell: str) -> np.ndarray[Any, np.dtype[np.bool_]]:
+    """Have some rows name no cell, in a field, or no place; tell which do neither."""
+    others = np.ones(len(rows), dtype=bool)
+    for k, (nowhere, place) in enumerate(zip(NOT_A_CELL, NOT_A_PLACE, strict=True)):
+        rows[cell][7 + 10 * k] = nowhere
+        rows["end"][8 + 10 * k, -3:] = place
+        others[7 + 10 * k : 9 + 10 * k] = False
+    return others
+
+
 def test_strangers_between_others_change_no_answer(building: BenchScene, calls: Rows) -> None:
     """Each call is answered as it is alone, whoever comes after it."""
     world, rows = building.world, calls.copy()
     alone = np.concatenate([find_collisions_many(world, rows[i : i + 1]) for i in range(len(rows))])
-    for k, cell in enumerate(NOT_A_CELL):
-        rows["target_cell"][7 + 10 * k] = cell
-    for k, place in enumerate(NOT_A_PLACE):
-        rows["end"][8 + 10 * k, -3:] = place
-    others = np.ones(len(rows), dtype=bool)
-    others[7 : 7 + 10 * len(NOT_A_CELL) : 10] = others[8 : 8 + 10 * len(NOT_A_PLACE) : 10] = False
+    others = put_strangers(rows, "target_cell")
     out = np.zeros(len(rows), dtype=at.RESULT_DTYPE)
     with pytest.raises(QueryError, match="row 7"):
         find_collisions_many(world, rows, out=out)
@@ -164,10 +169,7 @@ def test_strangers_between_others_change_no_answer(building: BenchScene, calls: 
 def test_strangers_between_movers_change_no_answer(building: BenchScene) -> None:
     """Each move is answered as it is without knowing who comes next; the first of them may begin nowhere."""
     rows = contact_walk(building, Surfaces(building.geometry), np.random.default_rng(2), MOVES).rows
-    for k, cell in enumerate(NOT_A_CELL):
-        rows["begin_cell"][7 + 10 * k] = cell
-    for k, place in enumerate(NOT_A_PLACE):
-        rows["end"][8 + 10 * k, -3:] = place
+    put_strangers(rows, "begin_cell")
     answers = [np.zeros(len(rows), dtype=at.RESULT_DTYPE) for _ in range(2)]
     for coherent, out in enumerate(answers):
         with count_reordered() as reordered, pytest.raises(QueryError, match="row 17"):
@@ -258,12 +260,7 @@ def test_strangers_between_flights_change_no_answer() -> None:
     dungeon.world.prepare()
     rows = free_flight(dungeon, np.random.default_rng(5), CALLS).rows
     alone = np.concatenate([resolve_many(dungeon.world, rows[i : i + 1]) for i in range(len(rows))])
-    for k, cell in enumerate(NOT_A_CELL):
-        rows["begin_cell"][7 + 10 * k] = cell
-    for k, place in enumerate(NOT_A_PLACE):
-        rows["end"][8 + 10 * k, -3:] = place
-    others = np.ones(len(rows), dtype=bool)
-    others[7 : 7 + 10 * len(NOT_A_CELL) : 10] = others[8 : 8 + 10 * len(NOT_A_PLACE) : 10] = False
+    others = put_strangers(rows, "begin_cell")
     out = np.zeros(len(rows), dtype=at.RESULT_DTYPE)
     with pytest.raises(QueryError, match="row 17"):
         resolve_many(dungeon.world, rows, out=out)
