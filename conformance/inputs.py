@@ -129,6 +129,8 @@ OPTIONAL: Final[Mapping[str, tuple[str, ...]]] = {
 }
 """What an operation may be given besides."""
 
+_UNNAMED: Final = "world"
+"""What a world is called that a case spells out without a name."""
 _BOOKKEEPING: Final = frozenset({"id", "op", "tag", "uncertain", "expect"})
 
 _FLOAT32_KEYS: Final = frozenset(
@@ -162,7 +164,8 @@ def read_inputs(op: str, record: Mapping[str, Any]) -> dict[str, Any]:
     Returns
     -------
     dict
-        Every required and given optional input; each number where a float belongs is a float.
+        Every required and given optional input; each number where a float belongs is a float. A world that
+        is spelled out has a name.
 
     Raises
     ------
@@ -183,7 +186,10 @@ def read_inputs(op: str, record: Mapping[str, Any]) -> dict[str, Any]:
     for key in required:
         if key not in record:
             raise FieldError(key, "nothing", f"an input of {op}")
-    return {key: _read(key, record[key], key) for key in record if key in known}
+    inputs = {key: _read(key, record[key], key) for key in record if key in known}
+    if isinstance(inputs.get("world"), dict):
+        inputs["world"] = {"name": _UNNAMED, **inputs["world"]}
+    return inputs
 
 
 def read_block(record: Mapping[str, Any]) -> dict[str, Any]:

@@ -8,7 +8,7 @@ whoever answers (oracle, engine, a foreign engine) are independent of each other
 from __future__ import annotations
 
 from dataclasses import dataclass, field
-from typing import TYPE_CHECKING, Any, Final, TypeAlias
+from typing import TYPE_CHECKING, Any, TypeAlias
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
@@ -70,10 +70,3 @@ class Errored:
 
 
 Outcome: TypeAlias = Result | Skipped | Errored
-
-_UNNAMED: Final = "world"
-
-
-def world_name(world: Mapping[str, Any]) -> str:
-    """Return what the record of a world is called; that of a case may have no name."""
-    return str(world.get("name", _UNNAMED))

@@ -12,7 +12,6 @@ from conformance.files import write_bytes, write_text
 from conformance.floats import shortest32
 from conformance.inputs import is_float64_input
 from conformance.outputs import OUTPUTS
-from conformance.query import world_name
 from conformance.shapes import Block, Kind, Listing, Nullable, Scalar
 from conformance.vector_library import GEOMETRY_FILES, WORLD_FILE, Library
 
@@ -143,7 +142,7 @@ def _record(record_id: str, query: Query, fields: Fields, shared: _Shared) -> di
         shared.geometries[written["name"]] = written
     inputs = _renamed(short_inputs(query.inputs), names)
     if "world" in inputs:
-        world = _named({"name": world_name(inputs["world"]), **inputs["world"]})
+        world = _named(inputs["world"])
         shared.worlds[world["name"]] = world
         inputs["world"] = world["name"]
     return {"id": record_id, "op": query.op, **inputs, "expect": short_fields(query.op, fields)}

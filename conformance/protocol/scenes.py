@@ -9,7 +9,6 @@ from typing import TYPE_CHECKING, Any, Final
 from weakref import WeakKeyDictionary
 
 from conformance.protocol.writing import inputs_text
-from conformance.query import world_name
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
@@ -20,6 +19,9 @@ if TYPE_CHECKING:
 
 KEPT_SCENES: Final = 256
 """How many scenes an engine holds at most; the one that was used longest ago is replaced."""
+
+_UNNAMED: Final = "world"
+"""What a world that has no name is called in messages."""
 
 _RECORDS: Final[WeakKeyDictionary[Geometry, dict[Dialect, str]]] = WeakKeyDictionary()
 """The records of the geometry that was sent, as JSON without the opening brace, as long as it is in use."""
@@ -113,3 +115,8 @@ def run_line(query: Query, scene: HeldScene | None, seq: int, dialect: Dialect) 
     label = f',"label":{encode_basestring(query.label)}' if query.label else ""
     head = f'"cmd":"run","seq":{seq},"op":"{query.op}"{where}{label}'
     return f'{{{head},"inputs":{inputs_text(inputs, dialect)}}}\n'.encode()
+
+
+def world_name(world: Mapping[str, Any]) -> str:
+    """Return what a world is called."""
+    return str(world.get("name", _UNNAMED))

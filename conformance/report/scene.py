@@ -5,7 +5,6 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Any, Final
 
 from conformance.floats import decimal32
-from conformance.query import world_name
 from conformance.report.values import format_block, format_cell, format_mover_state, format_point
 
 if TYPE_CHECKING:
@@ -47,7 +46,7 @@ def _places(query: Query) -> Iterable[str]:
         what = f"{inputs.get('as', '')} {_geometry(query, inputs['geometry'])}{polygon}".strip()
         yield f"{what} {_pose(inputs['pose'])}" if "pose" in inputs else what
     elif "world" in inputs:
-        yield f"world {world_name(inputs['world'])} {_contents(inputs['world'])}"
+        yield f"world {inputs['world']['name']} {_contents(inputs['world'])}"
     if isinstance(cell := inputs.get("cell"), dict):
         yield f"cell {_geometry(query, cell['geometry'])} {_pose(cell['pose'])}"
     for thing in (*inputs.get("objects", ()), *filter(None, [inputs.get("object")])):

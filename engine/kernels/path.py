@@ -277,7 +277,7 @@ def enter_current_center(s: Array) -> None:
         s[LOCALSPACE_HAS_CURRENT] = 1.0
 
 
-@entry
+@kernel
 def set_check_pos(s: Array, p: int, cell: float) -> None:
     """Go to another position of the row, and recompute the spheres.
 

@@ -131,10 +131,16 @@ def test_wrong_shadow_lists(change: dict[str, Any], path: str, found: str) -> No
     with pytest.raises(FieldError) as caught:
         read_inputs("point_in_cell", {"world": {**NOTHING, **change}, **asked})
     assert (caught.value.path, caught.value.found) == (path, found)
-    for key in NOTHING:
-        rest = {other: value for other, value in NOTHING.items() if other != key}
-        with pytest.raises(FieldError, match=f"world.{key}: found nothing"):
-            read_inputs("point_in_cell", {"world": rest, **asked})
+
+
+@pytest.mark.parametrize("key", NOTHING)
+def test_a_world_that_lacks_something(key: str) -> None:
+    """It may do without a name, which it is given, and without nothing else."""
+    asked = {"cell": 1, "point": [0, 0, 0]}
+    rest = {other: value for other, value in NOTHING.items() if other != key}
+    with pytest.raises(FieldError, match=f"world.{key}: found nothing"):
+        read_inputs("point_in_cell", {"world": rest, **asked})
+    assert read_inputs("point_in_cell", {"world": NOTHING, **asked})["world"] == {"name": "world", **NOTHING}
 
 
 def test_an_unknown_input_hints_at_the_nearest() -> None:

@@ -6,13 +6,11 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 import pytest
-from random_moves import random_moves, world_at
+from random_moves import random_bodies, random_moves, world_at
 
 from conformance.strategies.worlds.sites import SITES
 from engine import (
-    Body,
     Plan,
-    Pose,
     UndeterminedError,
     body_rows,
     find_collisions_many,
@@ -33,8 +31,6 @@ if TYPE_CHECKING:
 QUERIES = 400
 """In each site, of each kind."""
 BODIES, TICKS = 20, 20
-
-
 LEFTOVERS = (0.0, np.nan, -7.25e3)
 """What may stand in a row where it is not cleared."""
 
@@ -107,14 +103,7 @@ def test_calls_of_trees(name: str, monkeypatch: pytest.MonkeyPatch) -> None:
 def test_bodies(name: str, monkeypatch: pytest.MonkeyPatch) -> None:
     """Bodies that tick."""
     world = world_at(name)
-    bodies = [
-        Body(
-            Pose(int(move["start"][0]), move["start"][-3:].tolist()),
-            move["spheres"].tolist(),
-            velocity=(10.0 * (move["end"] - move["start"])[-3:]).tolist(),
-        )
-        for move in random_moves(name, np.random.default_rng(11), BODIES)
-    ]
+    bodies = random_bodies(name, np.random.default_rng(11), BODIES)
 
     def ticked() -> bytes:
         rows = body_rows(world, bodies)

@@ -7,10 +7,10 @@ from typing import TYPE_CHECKING
 import numpy as np
 import pytest
 from grazing_moves import grazing_moves, hall, littered
-from random_moves import random_moves, world_at
+from random_moves import random_bodies, random_moves, world_at
 
 from conformance.strategies.worlds.sites import SITES
-from engine import Body, Plan, Pose, Stage, UndeterminedError, body_rows, resolve_many, step_many
+from engine import Plan, Stage, UndeterminedError, body_rows, resolve_many, step_many
 from engine.probes import without_work
 
 if TYPE_CHECKING:
@@ -89,15 +89,7 @@ def test_every_shortcut_is_taken_somewhere() -> None:
 def test_bodies_tick_alike(name: str) -> None:
     """A body that flies, falls and lands is the same after each of many ticks."""
     world = world_at(name)
-    moves = random_moves(name, np.random.default_rng(11), 40)
-    bodies = [
-        Body(
-            Pose(int(move["start"][0]), move["start"][-3:].tolist()),
-            move["spheres"].tolist(),
-            velocity=(10.0 * (move["end"] - move["start"])[-3:]).tolist(),
-        )
-        for move in moves
-    ]
+    bodies = random_bodies(name, np.random.default_rng(11), 40)
     short, full = body_rows(world, bodies), body_rows(world, bodies)
     for _ in range(20):
         step_many(world, short, 0.05, 1)

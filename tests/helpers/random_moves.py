@@ -11,6 +11,7 @@ from engine_scenes import prepared
 from conformance.candidates.engine_ops.worlds import engine_world
 from conformance.strategies.poses import to_world
 from conformance.strategies.worlds.sites import site
+from engine import Body, Pose
 from engine import layout as at
 from engine.constants import (
     CONTACT,
@@ -73,6 +74,18 @@ def random_moves(name: str, rng: Generator, count: int) -> Rows:
     rows["end"][:, -3:] = single(rows["start"][:, -3:] + ways)
     inside: Rows = rows[rows["begin_cell"] != at.NO_CELL]
     return inside
+
+
+def random_bodies(name: str, rng: Generator, count: int) -> list[Body]:
+    """Return bodies where random moves begin, as fast as those are long."""
+    return [
+        Body(
+            Pose(int(move["start"][0]), move["start"][-3:].tolist()),
+            move["spheres"].tolist(),
+            velocity=(10.0 * (move["end"] - move["start"])[-3:]).tolist(),
+        )
+        for move in random_moves(name, rng, count)
+    ]
 
 
 def give_mover(rows: Rows, rng: Generator) -> None:
