@@ -12,6 +12,8 @@ if TYPE_CHECKING:
 
 _SPELLINGS: Final = {"NaN": "nan", "Infinity": "inf", "-Infinity": "-inf"}
 _MINUS_ZERO: Final = re.compile(r"-0(?![.0-9eE])")
+_SURROGATE: Final = re.compile(r"\\u[dD][89a-fA-F]")
+"""How half of a character may be spelled that takes two code units; most of these are whole pairs."""
 
 
 class LooseJsonError(ValueError):
@@ -43,14 +45,18 @@ def read_json(text: str, read_float: Callable[[str], float] = float) -> Any:
     json.JSONDecodeError
         It is not JSON.
     LooseJsonError
-        An object has a key twice, or there is a bare NaN or infinity.
+        An object has a key twice, there is a bare NaN or infinity, or a text has half of a surrogate pair,
+        which no file and no terminal takes.
     ValueError
         A whole number has more digits than Python reads.
     RecursionError
         It is nested too deeply.
     """
     read_whole = _keep_sign if _MINUS_ZERO.search(text) else int  # `int` itself is read without a call
-    return _decoder(read_float, read_whole).decode(text)
+    value = _decoder(read_float, read_whole).decode(text)
+    if _SURROGATE.search(text):
+        _refuse_halves(value)
+    return value
 
 
 def once_each(pairs: list[tuple[str, Any]]) -> dict[str, Any]:
@@ -71,6 +77,14 @@ def _decoder(read_float: Callable[[str], float], read_whole: Callable[[str], flo
         parse_constant=_refuse_constant,
         object_pairs_hook=once_each,
     )
+
+
+def _refuse_halves(value: Any) -> None:
+    try:
+        json.dumps(value, ensure_ascii=False, default=str).encode()
+    except UnicodeEncodeError as error:
+        half = f"\\u{ord(error.object[error.start]):04x}"
+        raise LooseJsonError(f"{half}, half of a surrogate pair", "whole characters") from None
 
 
 def _refuse_constant(name: str) -> float:

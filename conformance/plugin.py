@@ -282,13 +282,14 @@ def _close_candidates(config: pytest.Config) -> None:
 
 
 def _complaint(config: pytest.Config) -> str:
-    """Say why a run of the suite without failures is red all the same, if it is."""
-    if not config.stash[_EXPECTS_CASES] or config.option.collectonly:
+    """Say why a run without failures is red all the same, if it is: all of it was skipped, or nothing there."""
+    if config.option.collectonly:
         return ""
-    if not config.stash[_COLLECTED]:
+    expects_cases, counts = config.stash[_EXPECTS_CASES], config.stash[_TALLY].counts
+    if expects_cases and not config.stash[_COLLECTED]:
         return "no case was found"
-    counts = config.stash[_TALLY].counts
-    return "" if counts.queries or counts.random or counts.reasons else "nothing was compared"
+    compared = counts.queries or counts.random or counts.reasons
+    return "nothing was compared" if (expects_cases or counts) and not compared else ""
 
 
 @pytest.hookimpl(optionalhook=True)

@@ -55,7 +55,7 @@ class Counts:
         self.reasons += [counts["failure"]] if "failure" in counts else []
 
     def __bool__(self) -> bool:
-        return bool(self.cases or self.random)
+        return bool(self.cases or self.random or self.skipped)
 
     def lines(self, candidate: str) -> list[str]:
         """Write the counts, and the reasons of the failures."""

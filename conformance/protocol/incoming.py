@@ -59,9 +59,14 @@ class Incoming:
             self._take(deadline - time.monotonic())
         return self._lines.popleft() if self._lines else self._taken_out()
 
-    def close(self) -> None:
-        """Let the thread end; the pipe's other end must be closed."""
-        while self._thread.is_alive():
+    def close(self, seconds: float) -> None:
+        """Let the thread end, which takes the pipe's other end to be closed, and what is in it to be read.
+
+        A program that has left its engine's group may hold that end open for ever: it is not waited for any
+        longer than so many seconds.
+        """
+        deadline = time.monotonic() + seconds
+        while self._thread.is_alive() and time.monotonic() < deadline:
             with contextlib.suppress(queue.Empty):
                 self._chunks.get_nowait()
             self._thread.join(_PAUSE)

@@ -99,7 +99,7 @@ class EngineProcess:
         """End the engine and whatever it has started, and the threads that served it."""
         self._finalizer()
         self._outgoing.end()
-        self._incoming.close()
+        self._incoming.close(_EXIT_SECONDS)
         self._outgoing.join(_EXIT_SECONDS)
         self._logger.join(_EXIT_SECONDS)
 

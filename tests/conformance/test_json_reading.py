@@ -70,3 +70,15 @@ def _numbers(value: object) -> list[float]:
         return [number for item in value for number in _numbers(item)]
     assert isinstance(value, int | float)
     return [value]
+
+
+@pytest.mark.parametrize("text", [r'"\ud83d"', r'{"\uDE00": 1}', r'[{"a": ["x\ude00\ud83d"]}]'])
+def test_half_a_character_is_refused(text: str) -> None:
+    """Wherever it stands: Python reads it, and cannot write it into any file."""
+    with pytest.raises(LooseJsonError, match=r"^found \\u[0-9a-f]{4}, half of a surrogate pair, expected "):
+        read_json(text)
+
+
+def test_a_character_of_two_halves_is_whole() -> None:
+    """As is what only looks like half of one."""
+    assert read_json(r'["\ud83d\ude00", "\\ud83d"]') == ["\U0001f600", "\\ud83d"]

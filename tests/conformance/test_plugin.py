@@ -217,6 +217,26 @@ def test_a_run_that_compares_nothing_is_red(run: pytest.Pytester, monkeypatch: p
     result.stdout.fnmatch_lines(["conformance: nothing was compared"])
 
 
+@pytest.mark.parametrize(
+    "part",
+    [
+        "conformance/cases/contact-plane",
+        "conformance/cases/contact-plane/origin.yaml",
+        "conformance/cases/contact-plane/origin.yaml::origin-step-down-touching",
+        "conformance/test_laws.py",
+    ],
+)
+def test_a_part_that_compares_nothing_is_red(
+    run: pytest.Pytester, monkeypatch: pytest.MonkeyPatch, part: str
+) -> None:
+    """A folder of the suite, a file, a case, or its laws: whatever was asked for, all of it was skipped."""
+    monkeypatch.setattr("conformance.items.make_candidate", lambda _spec, **_options: NeverCandidate())
+    result = run.runpytest_inprocess(part)
+    assert result.parseoutcomes().keys() == {"skipped"}
+    assert result.ret == pytest.ExitCode.NO_TESTS_COLLECTED
+    result.stdout.fnmatch_lines(["conformance: nothing was compared"])
+
+
 def test_an_unknown_candidate_is_an_error(run: pytest.Pytester) -> None:
     """With the nearest name."""
     result = run.runpytest_inprocess("--candidate", "orakle")

@@ -40,7 +40,7 @@ class Piped:
         """End everything."""
         if self.sink >= 0:
             self.end()
-        self.incoming.close()
+        self.incoming.close(SECONDS)
 
 
 @pytest.fixture
@@ -98,3 +98,12 @@ def test_who_writes_too_much_must_wait(monkeypatch: pytest.MonkeyPatch) -> None:
     assert made.incoming._chunks.qsize() <= 2
     made.close()
     assert not made.incoming._thread.is_alive()
+
+
+def test_who_holds_the_pipe_open_is_not_waited_for(piped: Piped) -> None:
+    """A program that an engine has started may outlive it, and have its stdout."""
+    piped.incoming.close(0.05)
+    assert piped.incoming._thread.is_alive()
+    piped.end()
+    piped.incoming._thread.join(SECONDS)
+    assert not piped.incoming._thread.is_alive()
