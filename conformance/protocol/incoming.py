@@ -21,7 +21,17 @@ _PAUSE: Final = 0.01
 
 
 class ReadTimeoutError(Exception):
-    """The engine has not written a line in time."""
+    """The engine has not written a line in time.
+
+    Attributes
+    ----------
+    begun : bytes
+        What it has written of one.
+    """
+
+    def __init__(self, begun: bytes) -> None:
+        self.begun = begun
+        super().__init__(f"no whole line in time, {len(begun)} bytes of one")
 
 
 class Incoming:
@@ -75,7 +85,7 @@ class Incoming:
         try:
             chunk = self._chunks.get(timeout=max(seconds, 0.0))
         except queue.Empty:
-            raise ReadTimeoutError from None
+            raise ReadTimeoutError(bytes(self._begun)) from None
         self._ended = not chunk
         self._begun += chunk
         if b"\n" in chunk:

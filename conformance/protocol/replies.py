@@ -57,7 +57,7 @@ def read_reply(line: bytes, seq: int) -> dict[str, Any]:
     """
     reply = _parsed(line)
     if not isinstance(reply, dict):
-        raise BadReplyError(f"{_shown(line)}, which is not an object", _example(seq))
+        raise BadReplyError(f"{shown(line)}, which is not an object", _example(seq))
     if not _is_usual(reply, seq):
         _check_envelope(reply, seq, line)
     return reply
@@ -80,7 +80,7 @@ def _check_envelope(reply: dict[str, Any], seq: int, line: bytes) -> None:
         raise BadReplyError(f"the extra field {others[0]!r}", _example(seq))
     _check_sequence(reply, seq, line)
     if len(bodies) != 1:
-        found = " and ".join(bodies) if bodies else f"neither of the three in {_shown(line)}"
+        found = " and ".join(bodies) if bodies else f"neither of the three in {shown(line)}"
         raise BadReplyError(found, "exactly one of result, skipped, errored")
     _check_body(bodies[0], reply[bodies[0]])
 
@@ -107,26 +107,26 @@ def outcome_of(reply: dict[str, Any], op: str, dialect: Dialect) -> Outcome:
 def _parsed(line: bytes) -> Any:
     if len(line) > MOST_BYTES:
         raise BadReplyError(
-            f"a line of more than {MOST_BYTES} bytes, beginning {_shown(line)}", "a shorter line"
+            f"a line of more than {MOST_BYTES} bytes, beginning {shown(line)}", "a shorter line"
         )
     if not line.endswith(b"\n"):
-        raise BadReplyError(f"{_shown(line)} without a line end", "whole lines")
+        raise BadReplyError(f"{shown(line)} without a line end", "whole lines")
     try:
         return read_json(line.decode("utf-8"))
     except UnicodeDecodeError as error:
         raise BadReplyError(f"bytes that are not UTF-8 at column {error.start + 1}", "UTF-8") from None
     except json.JSONDecodeError as error:
-        found = f"{_shown(line)}, which is not JSON ({error.msg}, column {error.colno})"
+        found = f"{shown(line)}, which is not JSON ({error.msg}, column {error.colno})"
         raise BadReplyError(found, "one JSON object a line on stdout, and nothing else there") from None
     except LooseJsonError as error:
-        raise BadReplyError(f"{error.found}: {_shown(line)}", error.expected) from None
+        raise BadReplyError(f"{error.found}: {shown(line)}", error.expected) from None
     except (ValueError, RecursionError) as error:
         raise BadReplyError(str(error), "JSON") from None
 
 
 def _check_sequence(reply: dict[str, Any], seq: int, line: bytes) -> None:
     if "seq" not in reply:
-        raise BadReplyError(f"no seq in {_shown(line)}", f"seq {seq}")
+        raise BadReplyError(f"no seq in {shown(line)}", f"seq {seq}")
     found = reply["seq"]
     if type(found) is not int:
         raise BadReplyError(f"seq {found!r}", f"seq {seq}, a whole number")
@@ -151,7 +151,8 @@ def _example(seq: int) -> str:
     return f'{{"seq": {seq}, and one of "result", "skipped", "errored"}}'
 
 
-def _shown(line: bytes) -> str:
+def shown(line: bytes) -> str:
+    """Return the beginning of what an engine wrote, as it may stand in a message."""
     text = line[: 4 * _MOST_SHOWN].decode("utf-8", errors="replace").rstrip("\r\n")
     return repr(_cut(text))
 

@@ -14,7 +14,7 @@ from conformance.protocol.features import FEATURES
 from conformance.protocol.incoming import ReadTimeoutError
 from conformance.protocol.messages import VERSION, Capabilities, line_of
 from conformance.protocol.process import EngineProcess, describe_exit
-from conformance.protocol.replies import BadReplyError, read_reply
+from conformance.protocol.replies import BadReplyError, read_reply, shown
 
 if TYPE_CHECKING:
     from collections.abc import Collection
@@ -90,9 +90,11 @@ class Session:
         seconds = self._timeout * reads
         try:
             line = self._process.receive(seconds)
-        except ReadTimeoutError:
+        except ReadTimeoutError as error:
             self._process.kill()
             why = f"no reply within {seconds:g} s (--read-timeout)"
+            if error.begun:
+                why += f", but {shown(error.begun)} without a line end"
             raise EngineHungError(why, self._process.log()) from None
         if not line:
             status = self._process.wait(self._timeout)
@@ -128,12 +130,19 @@ class Session:
         try:
             line = self._process.receive(self._timeout)
         except ReadTimeoutError:
-            raise self.trouble(f"the engine still runs {self._timeout:g} s after it was stopped") from None
+            raise self.trouble(self._running_on()) from None
         if line:
             raise self.trouble(f"the engine writes on after its last reply: {line[:120]!r}")
         status = self._process.wait(self._timeout)
         if status != 0:
             raise self.trouble(f"the engine {describe_exit(status)} when it was stopped, expected 0")
+
+    def _running_on(self) -> str:
+        """Say what goes on though the engine was stopped: it, or what it has started and left behind."""
+        late = f"{self._timeout:g} s after it was stopped"
+        if self._process.wait(0.0) is None:
+            return f"the engine still runs {late}"
+        return f"the engine has ended, but a program that it started holds its stdout open {late}"
 
     def _introduced(self) -> Capabilities:
         seq = self.number()

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import re
+import sys
 import time
 from typing import TYPE_CHECKING
 
@@ -41,6 +42,7 @@ BAD_REPLIES = {
     "missing": r"nothing at result.v, expected a value",
     "short": r"\[0, 0\] \(list\) at result.v, expected 3 numbers",
     "errored": r"out of cells",
+    "surrogate": r"found \\ud83d, half of a surrogate pair: '\{.*, expected whole characters",
 }
 """What is recorded for the query at which an engine goes wrong."""
 BAD_STARTS = {
@@ -90,6 +92,30 @@ def test_a_hang_is_that_query_s() -> None:
     assert failed == Errored("no reply within 0.5 s (--read-timeout)")
     assert candidate.answer(queries()[AT]) == right(queries()[AT])
     assert candidate.close() == ()
+
+
+def test_a_reply_without_its_line_end_is_told() -> None:
+    """It has come, and is not whole: what a line lacks is seen in what there is of it."""
+    candidate = faux("endless", AT, read_timeout=0.5)
+    *_, failed = [candidate.answer(query) for query in queries()[:AT]]
+    assert isinstance(failed, Errored)
+    assert re.fullmatch(
+        rf"no reply within 0\.5 s \(--read-timeout\), but '\{{\"seq\": {AT}, .*\}}' without a line end",
+        failed.context,
+    )
+    assert candidate.close() == ()
+
+
+@pytest.mark.skipif(sys.platform == "win32", reason="Windows ends what an engine has started, in any session")
+def test_what_an_engine_leaves_behind_is_not_waited_for() -> None:
+    """A program in a session of its own that holds the engine's stdout: nobody hears from it any more."""
+    candidate = faux("leaves", AT, read_timeout=0.5)
+    started = time.monotonic()
+    assert candidate.answer(queries()[0]) == right(queries()[0])
+    assert candidate.close() == (
+        "the engine has ended, but a program that it started holds its stdout open 0.5 s after it was stopped",
+    )
+    assert time.monotonic() - started < 15.0, "the program sleeps for 20 seconds"
 
 
 def test_who_hangs_at_everything_is_given_up(monkeypatch: pytest.MonkeyPatch) -> None:

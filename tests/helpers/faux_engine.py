@@ -46,6 +46,8 @@ def main() -> int:
         sys.stderr.write("x" * 200_000 + "\nlast words\n")
     if MODE == "child":
         subprocess.Popen([sys.executable, "-c", "import time; time.sleep(60)"])
+    if MODE == "leaves":
+        subprocess.Popen([sys.executable, "-c", "import time; time.sleep(20)"], start_new_session=True)
     for line in sys.stdin:
         message = json.loads(line)
         result = answer(message)
@@ -116,6 +118,7 @@ def misbehave(seq: int, body: dict) -> None:
         "short": json.dumps({"seq": seq, "result": {"v": [0, 0]}}),
         "errored": json.dumps({"seq": seq, "errored": {"context": "out of cells"}}),
         "skipped": json.dumps({"seq": seq, "skipped": {"reason": "too far"}}),
+        "surrogate": json.dumps({"seq": seq, "errored": {"context": "\ud83d"}}),
         "twice": f"{whole}\n{whole}",
     }
     if MODE == "crash":
@@ -130,6 +133,10 @@ def misbehave(seq: int, body: dict) -> None:
         sys.stdout.write(whole[:-5])
         sys.stdout.flush()
         os._exit(0)
+    elif MODE == "endless":
+        sys.stdout.write(whole)
+        sys.stdout.flush()
+        time.sleep(60)
     elif MODE == "latin":
         sys.stdout.buffer.write(b'{"seq": "\xe9"}\n')
         sys.stdout.buffer.flush()
