@@ -6,7 +6,7 @@ import json
 import math
 from typing import TYPE_CHECKING, Any, Final
 
-from conformance.deviations.entries import distance_of, first_line, observed_text
+from conformance.deviations.entries import distance_of, error_text, observed_text, printable
 
 if TYPE_CHECKING:
     from collections.abc import Iterable, Iterator, Mapping, Sequence
@@ -56,7 +56,7 @@ def draft(failures: Mapping[str, Sequence[Failure]], *, engine: str) -> str:
 
 def entries_for(case_id: str, failures: Sequence[Failure]) -> Iterator[dict[str, Any]]:
     """Yield the entries of one case: one for each field that differs, and each error."""
-    for error in dict.fromkeys(first_line(failure.error) for failure in failures if not failure.found):
+    for error in dict.fromkeys(error_text(failure.error) for failure in failures if not failure.found):
         yield {"case": case_id, "error": error}
     by_name: dict[str, list[Difference]] = {}
     for failure in failures:
@@ -84,11 +84,6 @@ def _rounded_up(value: float) -> float:
     scale = 10.0 ** (math.floor(math.log10(value)) - _DIGITS + 1)
     rounded = float(f"{math.ceil(value / scale) * scale:.{_DIGITS - 1}e}")
     return rounded if rounded >= value else float(f"{rounded + scale:.{_DIGITS - 1}e}")
-
-
-def printable(text: str) -> str:
-    """Return a text as it may stand in a comment of YAML, which has no room for control characters."""
-    return "".join(char if char.isprintable() else "?" for char in text)
 
 
 def _yaml_lines(entry: Mapping[str, Any]) -> list[str]:

@@ -27,6 +27,8 @@ _CASE: Final = re.compile(r"[a-z0-9*]+(-[a-z0-9*]+)*")
 _LINK: Final = re.compile(r"https?://\S+")
 _BOUNDS: Final = ("observed", "within", "within_ulps")
 _DIGEST_DIGITS: Final = 8
+_MESSAGE_NUMBER: Final = re.compile(r"\b(seq\"?:? *\"?)[0-9]+")
+"""Which message of a run an error is about; the same case has another number in another run."""
 
 
 class Deviation(Strictly):
@@ -130,8 +132,8 @@ class Deviation(Strictly):
         return self.within is not None and distance is not None and distance <= self.within
 
     def covers_error(self, error: str) -> bool:
-        """Tell whether an error is the recorded one; only its first line counts."""
-        return self.error == first_line(error)
+        """Tell whether an error is the recorded one; only its first line counts, and no message's number."""
+        return self.error is not None and error_text(self.error) == error_text(error)
 
     @property
     def words(self) -> str:
@@ -153,9 +155,9 @@ class DeviationFile(Strictly):
 
 def observed_text(difference: Difference) -> str:
     """Return a given value as an entry records it: as reports do, and a long one with its digest."""
+    shown = printable(format_value(difference.kind, difference.candidate))
     if difference.kind is not Kind.BLOCK:
-        return format_value(difference.kind, difference.candidate)
-    shown = format_value(difference.kind, difference.candidate)
+        return shown
     whole = repr(_plain(difference.candidate)).encode("utf-8")
     return f"{shown} (sha256 {hashlib.sha256(whole).hexdigest()[:_DIGEST_DIGITS]})"
 
@@ -172,6 +174,16 @@ def distance_of(difference: Difference) -> float | None:
 def first_line(text: str) -> str:
     """Return the first line of a text: what follows in an error is context, such as a log."""
     return text.partition("\n")[0].strip()
+
+
+def error_text(error: str) -> str:
+    """Return an error as an entry records it: its first line, the same for the same fault of any run."""
+    return printable(_MESSAGE_NUMBER.sub(r"\1N", first_line(error)))
+
+
+def printable(text: str) -> str:
+    """Return a text without control characters, which YAML has no room for."""
+    return "".join(char if char.isprintable() else "?" for char in text)
 
 
 def _plain(value: Any) -> Any:

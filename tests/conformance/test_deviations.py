@@ -170,6 +170,26 @@ def test_errors_are_known_by_their_first_line() -> None:
     assert not crash.covers_error("the engine ended badly")
 
 
+def test_errors_are_known_in_any_run() -> None:
+    """A message has another number where fewer are sent; other numbers are part of the error."""
+    bad = entry(field=None, observed=None, error="bad reply: found NaN: '{\"seq\": 12, ...', expected seq 12")
+    assert bad.covers_error("bad reply: found NaN: '{\"seq\": 3, ...', expected seq 3")
+    assert not bad.covers_error("bad reply: found NaN: '{\"seq\": 12, ...', expected whole lines")
+    assert not entry(field=None, observed=None, error="status 3").covers_error("status 4")
+
+
+def test_what_an_engine_prints_is_drafted_as_it_can_be_read(tmp_path: Path) -> None:
+    """Its colours, too: a deviation file is YAML, and has no control characters."""
+    failure = Failure(Query("plane_set_height", {}, label="x"), "engine", error="\x1b[31mout of cells\x9b at seq 7")
+    path = tmp_path / "draft.yaml"
+    text = draft({"x": [failure]}, engine="mine").replace("reason:", "reason: known")
+    text = text.replace("link:", "link: https://x.org").replace("until:", "until: 2999-01-01")
+    path.write_text(text, encoding="utf-8")
+    (read,) = read_deviations(path).entries
+    assert read.deviation.error == "?[31mout of cells? at seq N"
+    assert read.deviation.covers_error(failure.error)
+
+
 def test_a_star_is_a_number_in_fields_and_anything_in_ids() -> None:
     """And nothing else is a pattern."""
     known = entry(case="step-up-*", field="tick *: contact_plane.d", observed=None, within_ulps=1)
