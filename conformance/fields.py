@@ -31,6 +31,8 @@ if TYPE_CHECKING:
     from conformance.shapes import Shape
 
 _NOT_FINITE: Final = {"nan": float("nan"), "inf": float("inf"), "-inf": float("-inf")}
+_EXPECTED: Final = {kind: f"{kind.value}, a whole number" for kind in (Kind.BITS, Kind.MOVER_BITS)}
+"""What is said to be expected of kinds that are not one thing: `a flag`, but `bits`."""
 _TOKEN: Final = re.compile(r"\[(\d+)\]|\.?([A-Za-z_]\w*)")
 
 _STEP: Final = re.compile(rf"^(\w+) (\d+){STEP_END}")
@@ -208,7 +210,7 @@ def _scalar(kind: Kind, value: Any, path: str) -> Any:
         return read_number(value, path)
     if fits(kind, value):
         return value
-    raise FieldError(path, _describe(value), f"a {kind.value}")
+    raise FieldError(path, _describe(value), _EXPECTED.get(kind, f"a {kind.value}"))
 
 
 def fits(kind: Kind, value: Any) -> bool:

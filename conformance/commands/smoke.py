@@ -45,6 +45,7 @@ def configure(parser: argparse.ArgumentParser) -> None:
 def run(args: argparse.Namespace) -> int:
     """Print what each step has shown and return the exit code: 1 if anything is wrong."""
     from conformance.console import Progress, make_console
+    from conformance.protocol.process import command_line
     from conformance.protocol.smoke import Mark, examine
 
     command = _command(args.command_line)
@@ -57,7 +58,8 @@ def run(args: argparse.Namespace) -> int:
     if wrong:
         console.print(f"{wrong} wrong; the contract is in docs/plugging-in-an-engine.md", style="red")
         return exit_codes.FAILURES
-    console.print(f'the bridge works: pytest conformance --candidate "cmd:{command}"', style="green")
+    candidate = command_line([f"{_PREFIX}{command}"])
+    console.print(f"the bridge works: pytest conformance --candidate {candidate}", style="green")
     return exit_codes.OK
 
 

@@ -12,6 +12,7 @@ from shipped_vectors import VECTORS
 
 from conformance.cli import main
 from conformance.commands import smoke as command
+from conformance.protocol.process import command_line
 from conformance.protocol.smoke import Finding, Mark, examine
 
 if TYPE_CHECKING:
@@ -189,7 +190,8 @@ def test_the_command_prints_and_ends(
     assert main(["smoke", f"cmd:{line}"]) == 0
     out = capsys.readouterr().out.splitlines()
     assert out[0] == "ok     handshake: faux 1.0: 1 operations, 0 features, floats decimal"
-    assert out[-1] == f'the bridge works: pytest conformance --candidate "cmd:{line}"'
+    candidate = command_line([f"cmd:{line}"])
+    assert out[-1] == f"the bridge works: pytest conformance --candidate {candidate}"
     assert main(["smoke", "./no-such-engine"]) == 1
     out = capsys.readouterr().out.splitlines()
     assert out[0].startswith("WRONG  start: cannot run './no-such-engine': ")
