@@ -113,7 +113,7 @@ def pytest_configure(config: pytest.Config) -> None:
     folders = given or [BUILT_IN_CASES]
     named = [path for path in _named_files(config) if not any(map(path.is_relative_to, folders))]
     asks_for_all = bool(given) or _covers(config, BUILT_IN_CASES)
-    config.stash[_EXPECTS_CASES] = asks_for_all or bool(named)
+    config.stash[_EXPECTS_CASES] = asks_for_all or bool(named) or _asks_for_part(config)
     if config.stash[_EXPECTS_CASES]:
         # Where the terminal lacks one character pytest would escape a failure whole, line ends included.
         from conformance.console import tolerate_unprintable
@@ -209,6 +209,12 @@ def _covers(config: pytest.Config, place: Path) -> bool:
     """Tell whether the run is asked to visit a place: it, or a folder above it, is an argument."""
     asked = [Path(arg).resolve() for arg in config.args if "::" not in arg]
     return any(place.resolve().is_relative_to(path) for path in asked)
+
+
+def _asks_for_part(config: pytest.Config) -> bool:
+    """Tell whether the run is asked for some of the suite's own cases: a folder of them, a file, or one case."""
+    asked = [Path(arg.partition("::")[0]).resolve() for arg in config.args]
+    return any(path.is_relative_to(BUILT_IN_CASES) for path in asked)
 
 
 def _found_folder(config: pytest.Config) -> Path:

@@ -33,8 +33,9 @@ Each family is a set of sweeps. At every severity the oracle (retail), the same 
 precision, and the candidate are asked the same queries and held against exact arithmetic (extra `exact`). The
 candidate is also held against retail, bit for bit, and against its error budget. Ctrl-C keeps what there is.
 
-Exit codes: 0 all is within the budget, 1 it is not, 2 usage, 4 nothing was asked,
-5 a file cannot be written, 130 Ctrl-C.
+Exit codes: 0 all is within the budget, 1 it is not, 2 usage, 3 the candidate has not answered everything,
+but what it did is within the budget, 4 it was asked nothing, or skipped all of it, 5 a file cannot be written,
+130 Ctrl-C.
 """
 _PIPED_WIDTH: Final = 200
 """Columns of the tables where no terminal says how wide it is."""
@@ -100,7 +101,9 @@ def run(args: argparse.Namespace) -> int:
         return exit_codes.FAILURES
     if not whole:
         return exit_codes.BROKEN_OFF
-    return exit_codes.OK if findings.readings else exit_codes.NOTHING_RAN
+    if findings.errors:
+        return exit_codes.BROKEN
+    return exit_codes.OK if findings.has_answered() else exit_codes.NOTHING_RAN
 
 
 def _list_comparisons(file: Path) -> int:

@@ -27,6 +27,7 @@ _CASE: Final = re.compile(r"[a-z0-9*]+(-[a-z0-9*]+)*")
 _LINK: Final = re.compile(r"https?://\S+")
 _BOUNDS: Final = ("observed", "within", "within_ulps")
 _DIGEST_DIGITS: Final = 8
+_SAYS_NOTHING: Final = "(nothing)"
 _MESSAGE_NUMBER: Final = re.compile(r"\b(seq\"?:? *\"?)[0-9]+")
 """Which message of a run an error is about; the same case has another number in another run."""
 
@@ -177,8 +178,11 @@ def first_line(text: str) -> str:
 
 
 def error_text(error: str) -> str:
-    """Return an error as an entry records it: its first line, the same for the same fault of any run."""
-    return printable(_MESSAGE_NUMBER.sub(r"\1N", first_line(error)))
+    """Return an error as an entry records it: its first line, the same for the same fault of any run.
+
+    An engine may say nothing at all, which is recorded as well.
+    """
+    return printable(_MESSAGE_NUMBER.sub(r"\1N", first_line(error.lstrip()))) or _SAYS_NOTHING
 
 
 def printable(text: str) -> str:

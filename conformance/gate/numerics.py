@@ -14,7 +14,7 @@ from conformance.stress.settings import quick
 from conformance.workers import one_for_each_core
 
 if TYPE_CHECKING:
-    from collections.abc import Callable
+    from collections.abc import Callable, Sequence
 
     from conformance.gate.parties import Parties
     from conformance.stress.budgets import Budget
@@ -35,11 +35,25 @@ def check_stress(
     seconds = time.perf_counter() - begin
     broken = [f"budget: {text}" for text in broken_bounds(budget, findings, whole=False)]
     for family in gate.stress:
-        asked = [r for r in findings.readings if (r.model, r.family) == (CANDIDATE, family)]
         wrong = [text for text in broken if text.startswith((f"budget: {family}:", f"budget: {family},"))]
-        status = Status.FAILED if wrong else Status.PASSED if asked else Status.SKIPPED
+        answers = [r for r in findings.readings if (r.model, r.family) == (CANDIDATE, family)]
         spent = seconds * findings.costs.get(family, 0.0) / (sum(findings.costs.values()) or 1.0)
-        message = "; ".join(wrong) or ("" if asked else "; ".join(findings.notes) or "no reading")
-        record(Check(Stage.STRESS, family, status, len(asked), spent, message))
+        status, told = _outcome(findings, family, wrong, bool(answers))
+        record(Check(Stage.STRESS, family, status, len(answers), spent, "; ".join(told)))
     for text in findings.failures:
         record(Check(Stage.STRESS, "run", Status.FAILED, message=text))
+
+
+def _outcome(
+    findings: Findings, family: str, wrong: Sequence[str], has_answered: bool
+) -> tuple[Status, Sequence[str]]:
+    """Return how a family ended, and what is to be said of it."""
+    errors = [text for text in findings.errors if text.startswith(f"{family},")]
+    skips = [note for note in findings.notes if note.startswith(f"{family}:")]
+    if wrong:
+        return Status.FAILED, wrong
+    if errors:
+        return Status.BROKEN, [errors[0], *([f"and {len(errors) - 1} others"] if len(errors) > 1 else [])]
+    if has_answered:
+        return Status.PASSED, skips
+    return Status.SKIPPED, skips or findings.notes or ["no reading"]

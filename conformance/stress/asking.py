@@ -4,13 +4,12 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any, Final
 
-from conformance.compare import differences
 from conformance.exact.candidate import UNDECIDED
 from conformance.exact.errors import errors
 from conformance.query import Result, Skipped
-from conformance.report.text import summary_line
 from conformance.stress.findings import CANDIDATE, DIFFERING, RETAIL, Findings, Reading
 from conformance.stress.quantities import Tally
+from conformance.stress.standing import Standing
 from conformance.stress.sweep import Sweep
 from conformance.stress.worst import worst_case
 
@@ -79,7 +78,7 @@ class Severity:
         for tally in self._tallies.values():
             tally.count("refused", 0)
         self._tallies[CANDIDATE].count(DIFFERING, 0)
-        self._differences: list[str] = []
+        self._standing = Standing(sweep, models.candidate.name)
         self._worst: dict[str, tuple[float, Query]] = {}
 
     def ask(self, probe: Probe) -> None:
@@ -90,15 +89,19 @@ class Severity:
             outcome = ask(query)
             sample = self._measure(name, outcome, exact, probe)
             if name == RETAIL:
-                self._hold_to_retail(outcome, given, query)
+                self._tallies[CANDIDATE].count(DIFFERING, self._differs(outcome, given, query))
                 self._keep(sample, query)
-        self._measure(CANDIDATE, given, exact, probe)
+        if not isinstance(given, Skipped):
+            self._measure(CANDIDATE, given, exact, probe)
 
     def findings(self) -> Findings:
         """Return what was found."""
         sweep = self._sweep
-        found = Findings(differences=self._differences)
+        found = Findings()
+        self._standing.tell(found)
         for name, tally in self._tallies.items():
+            if name == CANDIDATE and not self._standing.asked:
+                continue
             quantities = tally.quantities()
             found.readings.append(Reading(sweep.family, sweep.name, self._severity, name, quantities))
         for quantity, (value, query) in self._worst.items():
@@ -119,14 +122,8 @@ class Severity:
             tally.add(sample)
         return sample
 
-    def _hold_to_retail(self, retail: Outcome, given: Outcome, query: Query) -> None:
-        """Compare the candidate's answer with retail's; an answer where the other has none differs, too."""
-        told = difference(retail, given, query.op, self._models.candidate.name)
-        if told is not None:
-            self._tallies[CANDIDATE].count(DIFFERING)
-            self._differences.append(
-                f"{self._sweep.family}, {self._sweep.name} at {self._severity:g}: {told}"
-            )
+    def _differs(self, retail: Outcome, given: Outcome, query: Query) -> bool:
+        return self._standing.differs(query.op, retail, given, f" at {self._severity:g}")
 
     def _keep(self, sample: ErrorSample | None, query: Query) -> None:
         """Remember the query if retail has answered none worse."""
@@ -135,17 +132,3 @@ class Severity:
             size = float(len(value)) if isinstance(value, tuple) else value
             if size and (quantity not in self._worst or self._worst[quantity][0] < size):
                 self._worst[quantity] = (size, query)
-
-
-def difference(retail: Outcome, given: Outcome, op: str, candidate: str) -> str | None:
-    """Say how an answer of the candidate differs from retail's, on its bits; None where it does not."""
-    if isinstance(retail, Result) and isinstance(given, Result):
-        found = differences(retail.fields, given.fields, op=op, zero_signs="distinct")
-        return summary_line(found[0], candidate) if found else None
-    if isinstance(retail, Result) or isinstance(given, Result) or type(retail) is not type(given):
-        return f"{op}: retail says {_told(retail)}, {candidate} says {_told(given)}"
-    return None
-
-
-def _told(outcome: Outcome) -> str:
-    return "an answer" if isinstance(outcome, Result) else repr(outcome)

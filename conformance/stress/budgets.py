@@ -136,12 +136,12 @@ def broken_bounds(budget: Budget, findings: Findings, *, whole: bool) -> Iterato
     budget : Budget
     findings : Findings
     whole : bool
-        Whether every severity was asked: then a bound about a family that was run, but about no reading of
-        it, is broken as well.
+        Whether every severity was asked: then a bound about a family in which the candidate has answered,
+        but about no reading of it, is broken as well.
     """
     for bound in budget.bounds:
         about = [reading for reading in findings.readings if bound.about(reading)]
-        if not about and whole and bound.family in findings.families:
+        if not about and whole and findings.has_answered(bound.family):
             yield f"{bound.words}: it is about no reading of this run"
         broken = [reading for reading in about if bound.broken_by(reading.quantities[bound.quantity])]
         if broken:

@@ -10,10 +10,10 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Any, Final
 
 from conformance.query import Result
-from conformance.stress.asking import difference
 from conformance.stress.courses import COURSES, SETTLED
 from conformance.stress.findings import CANDIDATE, DIFFERING, RETAIL, Findings, Reading
 from conformance.stress.gait import Gait
+from conformance.stress.standing import Standing
 from conformance.stress.sweep import Sweep
 
 if TYPE_CHECKING:
@@ -75,11 +75,13 @@ class DriftSweep(Sweep):
             count = self._ticks if name in {RETAIL, CANDIDATE} else self._others
             told = f"{self.family}, {self.name}: {name}, part {part}"
             outcomes[name] = ask(self._lasting(query, count, told, say))
-        answer = difference(outcomes[RETAIL], outcomes[CANDIDATE], query.op, models.candidate.name)
-        if answer is not None:
-            found.differences.append(f"{self.family}, {self.name}: {answer}")
+        standing = Standing(self, models.candidate.name)
+        differs = standing.differs(query.op, outcomes[RETAIL], outcomes[CANDIDATE])
+        standing.tell(found)
+        if not standing.asked:
+            del outcomes[CANDIDATE]
         for name, outcome in outcomes.items():
-            differing = {DIFFERING: float(answer is not None)} if name == CANDIDATE else {}
+            differing = {DIFFERING: float(differs)} if name == CANDIDATE else {}
             found.readings += self._readings(name, outcome, differing)
         walked = f"{self._others} ticks by single and double, {self._ticks} by retail and the candidate"
         found.notes.append(f"{self.family}, {self.name}: {walked}")

@@ -112,6 +112,8 @@ class Findings:
         In the order of the sweeps.
     differences : list of str
         Answers of the candidate that are not retail's, the first difference of each.
+    errors : list of str
+        Answers that it has not given: it crashed, hung, or replied badly.
     failures : list of str
         What else is wrong: a worker that died, a budget that is broken.
     notes : list of str
@@ -124,6 +126,7 @@ class Findings:
     pictures: list[Picture] = field(default_factory=list)
     worst: list[Worst] = field(default_factory=list)
     differences: list[str] = field(default_factory=list)
+    errors: list[str] = field(default_factory=list)
     failures: list[str] = field(default_factory=list)
     notes: list[str] = field(default_factory=list)
     costs: dict[str, float] = field(default_factory=dict)
@@ -134,6 +137,7 @@ class Findings:
         self.pictures += other.pictures
         self.worst += other.worst
         self.differences += other.differences
+        self.errors += other.errors
         self.failures += other.failures
         self.notes += [note for note in other.notes if note not in self.notes]
         for family, seconds in other.costs.items():
@@ -143,6 +147,10 @@ class Findings:
     def families(self) -> list[str]:
         """The families that have readings, in their order."""
         return list(dict.fromkeys(reading.family for reading in self.readings))
+
+    def has_answered(self, family: str | None = None) -> bool:
+        """Tell whether the candidate has taken part in a family, or in any."""
+        return any(r.model == CANDIDATE and family in {None, r.family} for r in self.readings)
 
     def sweeps(self, family: str) -> list[str]:
         """Return the sweeps of a family that have readings, in their order."""
@@ -173,6 +181,7 @@ class Findings:
             "readings": [reading.to_record() for reading in self.readings],
             "pictures": [picture.to_record() for picture in self.pictures],
             "differences": self.differences,
+            "errors": self.errors,
             "failures": self.failures,
             "notes": self.notes,
         }

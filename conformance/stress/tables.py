@@ -18,7 +18,8 @@ if TYPE_CHECKING:
     from conformance.stress.findings import Findings, Reading
     from conformance.stress.limits import Limit
 
-SHOWN_DIFFERENCES: Final = 10
+SHOWN: Final = 10
+"""Lines of what differs, and of what is not answered."""
 MODELS: Final = (RETAIL, "single", "double")
 _JSON_ONLY: Final = frozenset({DIFFERING, "contact_ulps", "normal_radians"})
 """Quantities without a column of this name."""
@@ -33,14 +34,19 @@ def show(console: Console, findings: Findings, candidate: str) -> None:
     reached = list(limits(findings, MODELS))
     if reached:
         console.print(limit_table(reached))
-    for text in findings.differences[:SHOWN_DIFFERENCES]:
-        console.print(f"differs: {text}", style="red")
-    if (left := len(findings.differences) - SHOWN_DIFFERENCES) > 0:
-        console.print(f"... and {left} other differences", style="red")
+    _show_some(console, "differs", findings.differences, "differences")
+    _show_some(console, "no answer", findings.errors, "answers that are missing")
     for note in findings.notes:
         console.print(f"note: {note}", style="yellow")
     for failure in findings.failures:
         console.print(f"failure: {failure}", style="red")
+
+
+def _show_some(console: Console, what: str, texts: list[str], of_all: str) -> None:
+    for text in texts[:SHOWN]:
+        console.print(f"{what}: {text}", style="red")
+    if (left := len(texts) - SHOWN) > 0:
+        console.print(f"... and {left} other {of_all}", style="red")
 
 
 def family_table(findings: Findings, family: str, candidate: str) -> Table:

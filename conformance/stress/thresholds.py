@@ -12,7 +12,6 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING, Final
 
 from conformance.query import Result
-from conformance.stress.asking import difference
 from conformance.stress.comparisons import COMPARISONS
 from conformance.stress.findings import (
     CANDIDATE,
@@ -24,6 +23,7 @@ from conformance.stress.findings import (
     Picture,
     Reading,
 )
+from conformance.stress.standing import Standing
 from conformance.stress.steps import stepped, turning_point
 from conformance.stress.sweep import Sweep
 from conformance.stress.worst import worst_case
@@ -118,7 +118,7 @@ class Square:
         self._sweep = sweep
         self._models = models
         self._rows: dict[int, list[Point]] = {}
-        self._differences: list[str] = []
+        self._standing = Standing(sweep, models.candidate.name)
         self._worst: tuple[int, Query] | None = None
 
     def exactly(self, value: float, beside: float) -> bool:
@@ -139,19 +139,18 @@ class Square:
         """Ask everyone one query."""
         exact, given = self._models.exact.unrounded(query), self._models.candidate.answer(query)
         outcomes = {name: ask(query) for name, ask in self._models.roundings.items()}
-        told = difference(outcomes[RETAIL], given, query.op, self._models.candidate.name)
-        if told is not None:
-            self._differences.append(f"{FAMILY}, {self._sweep.name} at {column} / {row}: {told}")
+        differs = self._standing.differs(query.op, outcomes[RETAIL], given, f" at {column} / {row}")
         outcomes[CANDIDATE] = given
         others = {name: self._decision(outcome) for name, outcome in outcomes.items()}
-        point = Point(column, self._decision(exact), others, told is None)
+        point = Point(column, self._decision(exact), others, not differs)
         self._rows.setdefault(row, []).append(point)
         if point.is_wrong(RETAIL) and (self._worst is None or self._worst[0] < abs(column)):
             self._worst = (abs(column), query)
 
     def findings(self) -> Findings:
         """Return the picture, and what was measured."""
-        sweep, found = self._sweep, Findings(differences=self._differences)
+        sweep, found = self._sweep, Findings()
+        self._standing.tell(found)
         found.pictures.append(Picture(sweep.name, sweep.comparison.axes, tuple(self._signs())))
         for column in (column for column in TOLD if column in sweep.steps):
             points = [p for row in self._rows.values() for p in row if p.column == column]
@@ -168,7 +167,8 @@ class Square:
         return self._sweep.comparison.decide(outcome.fields) if isinstance(outcome, Result) else None
 
     def _asked(self) -> Iterable[str]:
-        return (*self._models.roundings, CANDIDATE)
+        """Return whose decisions are told: the candidate's only if it has taken part at every point."""
+        return self._models.roundings if self._standing.skipped else (*self._models.roundings, CANDIDATE)
 
     def _signs(self) -> Iterable[tuple[int, ...]]:
         for row in self._rows.values():

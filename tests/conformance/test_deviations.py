@@ -178,9 +178,21 @@ def test_errors_are_known_in_any_run() -> None:
     assert not entry(field=None, observed=None, error="status 3").covers_error("status 4")
 
 
+@pytest.mark.parametrize(
+    ("said", "recorded"), [("", "(nothing)"), ("\n", "(nothing)"), ("\n  late\nmore", "late")]
+)
+def test_an_error_may_say_little(said: str, recorded: str) -> None:
+    """What is recorded of it is never empty, and it is known by that."""
+    (drafted,) = entries_for("x", [Failure(Query("plane_set_height", {}, label="x"), "engine", error=said)])
+    assert drafted["error"] == recorded
+    assert entry(field=None, observed=None, error=recorded).covers_error(said)
+
+
 def test_what_an_engine_prints_is_drafted_as_it_can_be_read(tmp_path: Path) -> None:
     """Its colours, too: a deviation file is YAML, and has no control characters."""
-    failure = Failure(Query("plane_set_height", {}, label="x"), "engine", error="\x1b[31mout of cells\x9b at seq 7")
+    failure = Failure(
+        Query("plane_set_height", {}, label="x"), "engine", error="\x1b[31mout of cells\x9b at seq 7"
+    )
     path = tmp_path / "draft.yaml"
     text = draft({"x": [failure]}, engine="mine").replace("reason:", "reason: known")
     text = text.replace("link:", "link: https://x.org").replace("until:", "until: 2999-01-01")

@@ -11,6 +11,8 @@ from conformance import items, plugin, profiles
 from conformance.query import Query, Skipped
 
 if TYPE_CHECKING:
+    from collections.abc import Sequence
+
     from conformance.candidates.base import Candidate
 
 pytest_plugins = ["pytester"]
@@ -150,12 +152,13 @@ def test_an_engine_that_is_wrong_everywhere_is_told_case_by_case(run: pytest.Pyt
     result.stdout.fnmatch_lines(["*scene: world_transition; world world with 1 landblock, 1 object;*"])
 
 
+@pytest.mark.parametrize("asked", [("--cases", str(ORIGIN)), (f"{ORIGIN}::origin-step-down-touching",)])
 def test_a_failure_on_a_terminal_of_few_characters(
-    run: pytest.Pytester, monkeypatch: pytest.MonkeyPatch
+    run: pytest.Pytester, monkeypatch: pytest.MonkeyPatch, asked: Sequence[str]
 ) -> None:
-    """What it cannot show is a question mark; lines stay lines."""
+    """What it cannot show is a question mark; lines stay lines, also where one case is run again."""
     monkeypatch.setenv("PYTHONIOENCODING", "ascii")
-    result = run.runpytest_subprocess("--cases", str(ORIGIN), "--candidate", "bug:cell-origin")
+    result = run.runpytest_subprocess(*asked, "--candidate", "bug:cell-origin")
     result.stdout.fnmatch_lines(["  contact_plane.d *-94.0*", "  retail: *SD-1?SD-12*"])
 
 

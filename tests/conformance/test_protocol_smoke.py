@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import math
 import sys
 from typing import TYPE_CHECKING
 
@@ -12,8 +13,10 @@ from shipped_vectors import VECTORS
 
 from conformance.cli import main
 from conformance.commands import smoke as command
+from conformance.protocol import smoke
 from conformance.protocol.process import command_line
 from conformance.protocol.smoke import Finding, Mark, examine
+from conformance.query import Result
 
 if TYPE_CHECKING:
     from pathlib import Path
@@ -96,6 +99,14 @@ def test_what_is_wrong_is_told(mode: str, step: str, said: str, vectors: Path) -
     ((where, what),) = wrong(findings)
     assert (where, what[: len(said)]) == (step, said)
     assert all(found.expected for found in findings if found.mark is Mark.WRONG)
+
+
+def test_an_answer_with_nan_is_like_itself() -> None:
+    """NaN is not equal to itself, but an engine that gives it twice has not lost a scene; signs of zero count."""
+    nan, zero = Result({"plane": [math.nan, 1.0]}), Result({"plane": [0.0, 1.0]})
+    assert smoke._alike(nan, Result({"plane": [float("nan"), 1.0]}))
+    assert not smoke._alike(nan, zero)
+    assert not smoke._alike(zero, Result({"plane": [-0.0, 1.0]}))
 
 
 def test_an_engine_that_outlives_the_suite(vectors: Path) -> None:

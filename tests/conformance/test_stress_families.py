@@ -14,13 +14,14 @@ from conformance.candidates.engine_candidate import EngineCandidate
 from conformance.candidates.oracle_candidate import OracleCandidate
 from conformance.query import Result
 from conformance.stress import degenerate, rotation, scaling, translation
-from conformance.stress.asking import ErrorSweep, difference
+from conformance.stress.asking import ErrorSweep
 from conformance.stress.comparisons import COMPARISONS, Comparison
 from conformance.stress.families import FAMILIES
 from conformance.stress.findings import CANDIDATE, DIFFERING, RETAIL, Findings
 from conformance.stress.models import Spec, make_models
 from conformance.stress.moves import furnished_room, room_moves
 from conformance.stress.settings import Settings, full, quick
+from conformance.stress.standing import difference
 from conformance.stress.steps import turning_point
 from conformance.stress.thresholds import ThresholdSweep
 
