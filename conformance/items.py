@@ -34,6 +34,8 @@ DEFAULT_TOPICS: Final = "cp-write"
 MOST_SOURCE_LINES: Final = 60
 """Lines of a case's source shown with its failure."""
 
+_WHOLE_FILE: Final = "file-unreadable"
+"""What fails where no case can be told from another."""
 _ASKING: Final = ("--trace-writes", "--read-timeout")
 """Options of a run that change how it is asked and told, not what."""
 _IDS: Final = pytest.StashKey["dict[str, Location]"]()
@@ -74,7 +76,7 @@ class YamlFile(pytest.File):
         for problem in loaded.problems:
             problems.setdefault(problem.case_id, []).append(problem)
         for case_id, found in problems.items():
-            yield ProblemItem.from_parent(self, name=f"{case_id or 'file'}-unreadable", problems=found)
+            yield ProblemItem.from_parent(self, name=case_id or _WHOLE_FILE, problems=found)
         for case in loaded.cases:
             yield self._item(case)
 
@@ -84,7 +86,7 @@ class YamlFile(pytest.File):
         if first == case.location:
             return CaseItem.from_parent(self, name=case.id, case=case)
         problems = [duplicate_id(case, first)]
-        return ProblemItem.from_parent(self, name=f"{case.id}-unreadable", problems=problems)
+        return ProblemItem.from_parent(self, name=case.id, problems=problems)
 
 
 class ProblemItem(pytest.Item):
@@ -194,14 +196,12 @@ class CaseItem(pytest.Item):
         return [*shown, f"  ... and {more} more lines"] if more > 0 else shown
 
     def rerun_command(self) -> str:
-        """Return the command that runs only this case."""
+        """Return the command that runs only this case; a file that is named needs no `--cases`."""
         parts = ["pytest", f"{_relative(self.path, self.config.invocation_params.dir)}::{self.name}"]
         for option in ("--candidate", "--deviations", "--poses", "--pose-seed", *_ASKING):
             value = self.config.getoption(option, None)
             if value is not None and value != "engine":
                 parts += [option, str(value)]
-        for folder in self.config.getoption("--cases", ()):
-            parts += ["--cases", str(folder)]
         return command_line(parts)
 
 

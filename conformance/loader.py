@@ -5,6 +5,8 @@ A mistake in one case does not lose the others; what cannot be read is a `Proble
 
 from __future__ import annotations
 
+import os
+from fnmatch import fnmatchcase
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Final
 
@@ -36,6 +38,10 @@ __all__ = [
 BUILT_IN_CASES: Final = Path(__file__).parent / "cases"
 """Folder of the cases that ship with the package."""
 CASE_SUFFIXES: Final = (".yaml", ".yml")
+_NOT_ENTERED: Final = (*(".*", "*.egg", "_darcs", "build", "CVS", "dist", "node_modules", "venv", "{arch}"),)
+"""Names of folders that pytest does not enter, unless it is told to (`norecursedirs`),"""
+_MARK_OF_ENVIRONMENT: Final = "pyvenv.cfg"
+"""and the file of the others."""
 AS_WRITTEN: Final = Vary()
 """Every case with its own `vary`."""
 
@@ -82,16 +88,31 @@ def load_mentioning(word: str, vary: Vary = AS_WRITTEN) -> Loaded:
 
 
 def case_files(path: Path) -> list[Path]:
-    """List the case files at or below a path, sorted; raises `NoCasesError` if there are none."""
+    """List the case files at or below a path, sorted; raises `NoCasesError` if there are none.
+
+    Folders below it that pytest does not enter are left out by everybody: hidden ones, what builds leave
+    behind, and virtual environments.
+    """
     path = installed(path)
     if path.is_file():
         return [path]
     if not path.is_dir():
         raise NoCasesError(f"{path} does not exist")
-    files = [file for file in path.rglob("*") if file.suffix in CASE_SUFFIXES and file.is_file()]
+    files = [file for file in _below(path) if file.suffix in CASE_SUFFIXES and file.is_file()]
     if not files:
         raise NoCasesError(f"no *.yaml file in {path}")
     return sorted(files, key=lambda file: file.relative_to(path).as_posix())
+
+
+def _below(folder: Path) -> Iterator[Path]:
+    for place, folders, names in os.walk(folder):
+        yield from (Path(place, name) for name in names)
+        folders[:] = [name for name in folders if _is_entered(Path(place, name))]
+
+
+def _is_entered(folder: Path) -> bool:
+    is_left_out = any(fnmatchcase(folder.name, pattern) for pattern in _NOT_ENTERED)
+    return not is_left_out and not (folder / _MARK_OF_ENVIRONMENT).is_file()
 
 
 def load_file(path: Path, vary: Vary = AS_WRITTEN) -> Loaded:

@@ -31,6 +31,7 @@ DEFAULT_CANDIDATE: Final = "engine"
 
 _FOLDERS: Final = pytest.StashKey["tuple[Path, ...]"]()
 _EXPECTS_CASES: Final = pytest.StashKey[bool]()
+_RUNS: Final = pytest.StashKey[bool]()
 _COLLECTED: Final = pytest.StashKey[int]()
 _TALLY: Final = pytest.StashKey["Tally"]()
 _COMPLAINTS: Final = pytest.StashKey["list[str]"]()
@@ -106,6 +107,7 @@ def pytest_configure(config: pytest.Config) -> None:
     _check_candidate(config)
     _check_topics(config)
     _check_deviations(config)
+    config.stash[_RUNS] = False
     config.stash[_COLLECTED] = 0
     config.stash[_COMPLAINTS] = []
     config.stash[_TALLY] = Tally()
@@ -212,7 +214,7 @@ def _covers(config: pytest.Config, place: Path) -> bool:
 
 
 def _asks_for_part(config: pytest.Config) -> bool:
-    """Tell whether the run is asked for some of the suite's own cases: a folder of them, a file, or one case."""
+    """Tell whether the run is asked for some of the suite's own cases: a folder, a file, or one case."""
     asked = [Path(arg.partition("::")[0]).resolve() for arg in config.args]
     return any(path.is_relative_to(BUILT_IN_CASES) for path in asked)
 
@@ -233,9 +235,10 @@ def pytest_collect_file(file_path: Path, parent: pytest.Collector) -> pytest.Col
     """Collect YAML files, but only those of the case folders, and those that are asked for by name."""
     if file_path.suffix not in CASE_SUFFIXES:
         return None
-    whole = file_path.resolve()
-    below = any(whole.is_relative_to(folder) for folder in parent.config.stash[_FOLDERS])
-    if not below and not whole.is_relative_to(_found_folder(parent.config)):
+    # A link counts where it is, and where it leads to.
+    places = file_path.resolve(), file_path.parent.resolve() / file_path.name
+    folders = (*parent.config.stash[_FOLDERS], _found_folder(parent.config))
+    if not any(place.is_relative_to(folder) for place in places for folder in folders):
         return None
     from conformance.items import YamlFile
 
@@ -264,6 +267,12 @@ def pytest_collection_modifyitems(config: pytest.Config, items: list[pytest.Item
         config.stash[_COMPLAINTS] += unknown_cases(config, cases, folders)
 
 
+@pytest.hookimpl(tryfirst=True)
+def pytest_runtestloop(session: pytest.Session) -> None:
+    """Note that tests are run: pytest can also list them, or its fixtures, or what it keeps."""
+    session.config.stash[_RUNS] = not session.config.option.collectonly
+
+
 @pytest.hookimpl(trylast=True)
 def pytest_sessionfinish(session: pytest.Session, exitstatus: int) -> None:
     """Turn a run of the suite red that has found no case, or that has compared nothing."""
@@ -288,10 +297,12 @@ def _close_candidates(config: pytest.Config) -> None:
 
 
 def _complaint(config: pytest.Config) -> str:
-    """Say why a run without failures is red all the same, if it is: all of it was skipped, or nothing there."""
-    if config.option.collectonly:
+    """Say why a run without failures is red all the same, if it is: nothing was there, or all was skipped."""
+    if not config.stash[_RUNS]:
         return ""
-    expects_cases, counts = config.stash[_EXPECTS_CASES], config.stash[_TALLY].counts
+    # Where only what failed is run again, other files are not even looked at.
+    expects_cases = config.stash[_EXPECTS_CASES] and not config.getoption("lf", False)
+    counts = config.stash[_TALLY].counts
     if expects_cases and not config.stash[_COLLECTED]:
         return "no case was found"
     compared = counts.queries or counts.random or counts.reasons

@@ -34,8 +34,8 @@ precision, and the candidate are asked the same queries and held against exact a
 candidate is also held against retail, bit for bit, and against its error budget. Ctrl-C keeps what there is.
 
 Exit codes: 0 all is within the budget, 1 it is not, 2 usage, 3 the candidate has not answered everything,
-but what it did is within the budget, 4 it was asked nothing, or skipped all of it, 5 a file cannot be written,
-130 Ctrl-C.
+but what it did is within the budget, 4 it was asked nothing, or skipped all of it, 5 a file cannot be
+written, 130 Ctrl-C.
 """
 _PIPED_WIDTH: Final = 200
 """Columns of the tables where no terminal says how wide it is."""

@@ -87,7 +87,7 @@ def _in_order(document: Document) -> list[str]:
     lines = list(document.lines)
     for below, end in _cases(document):
         keys = _keys(document, below)
-        if len({line for line, _ in keys}) == len(keys):
+        if keys and len({line for line, _ in keys}) == len(keys):
             first = keys[0][0] - 1
             lines[first:end] = _sorted(lines[:end], keys)
     return lines
@@ -103,6 +103,8 @@ def _cases(document: Document) -> Iterator[tuple[DocPath, int]]:
         yield (), last
         return
     items = [(_CASES, index) for index, item in enumerate(data[_CASES]) if isinstance(item, dict) and item]
+    if not items:
+        return
     ends = [document.first_line(path) - 1 for path in items[1:]]
     yield from zip(items, [*ends, last], strict=True)
 

@@ -25,8 +25,8 @@ if TYPE_CHECKING:
     from conformance.trace_lines import LoggedWrite
 
 _ITEM: Final = re.compile(r"^( *)-( +)")
-_ID: Final = re.compile(r"^id:.*$", re.MULTILINE)
-_TITLE: Final = re.compile(r"^title:.*(?:\n[ \t]+\S.*)*$", re.MULTILINE)
+_ID: Final = re.compile(r"^([\"']?)id\1[ \t]*:.*$", re.MULTILINE)
+_TITLE: Final = re.compile(r"^([\"']?)title\1[ \t]*:.*(?:\n[ \t]+\S.*)*$", re.MULTILINE)
 _COMMENT: Final = "#"
 _WIDTH: Final = 100
 

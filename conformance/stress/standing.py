@@ -1,4 +1,4 @@
-"""How a candidate stands beside retail in a part of a sweep: what differs, what it does not answer, what it skips."""
+"""How a candidate stands beside retail in a part of a sweep: what differs, what is missing, what it skips."""
 
 from __future__ import annotations
 

@@ -87,6 +87,15 @@ def test_keys_are_put_in_order_with_their_comments() -> None:
     assert laid_out(TIDY) == TIDY
 
 
+@pytest.mark.parametrize("text", ["cases: []\n", "cases:\n  - &a {id: one, title: x}\n  - *a\n"])
+def test_a_file_without_lines_to_move_stays(text: str) -> None:
+    """No case at all, or one that is said to be another: what is wrong with it is for `lint` to say."""
+    assert (
+        parse(lay_out(text.encode("utf-8"), "a.yaml").encode("utf-8"), "a.yaml").data
+        == parse(text.encode("utf-8"), "a.yaml").data
+    )
+
+
 @given(st.permutations(BLOCKS), st.sampled_from(["\n", "\r\n"]), st.sampled_from(["", "\ufeff"]))
 def test_any_order_is_laid_out_alike(blocks: list[str], end: str, mark: str) -> None:
     """Whatever the order of the keys, the ends of lines and the mark at the beginning are.

@@ -173,6 +173,23 @@ def test_files_are_sorted(tmp_path: Path) -> None:
     assert names == ["a.yaml", "a/z.yml", "b.yaml"]
 
 
+def test_folders_that_pytest_does_not_enter_are_left_out(tmp_path: Path) -> None:
+    """Copies that a build has made, and what is installed beside the cases; unless they are asked for."""
+    (tmp_path / "env").mkdir()
+    (tmp_path / "env" / "pyvenv.cfg").touch()
+    for name in (
+        "build/a.yaml",
+        "dist/sub/a.yaml",
+        ".git/a.yaml",
+        "env/lib/a.yaml",
+        "mine/a.yaml",
+        ".hidden.yaml",
+    ):
+        write(tmp_path, name, POINT)
+    assert [file.name for file in case_files(tmp_path)] == [".hidden.yaml", "a.yaml"]
+    assert case_files(tmp_path / "build") == [tmp_path / "build" / "a.yaml"]
+
+
 def test_nothing_is_green_on_nothing(tmp_path: Path) -> None:
     """A mistyped path and an empty folder are errors."""
     with pytest.raises(NoCasesError, match="does not exist"):

@@ -60,6 +60,20 @@ def test_a_title_may_hold_anything(tmp_path: Path) -> None:
     assert made.title == "It's a: 'test'"
 
 
+@pytest.mark.parametrize("quote", ["'", '"'])
+def test_keys_may_be_quoted(quote: str, tmp_path: Path) -> None:
+    """As JSON has them: the new id and the new title still take the place of the old ones."""
+    found = tmp_path / "found.yaml"
+    assert new("found-1", "--like", ORIGIN, "-o", str(found)) == exit_codes.OK
+    text = found.read_text(encoding="utf-8")
+    for key in ("id", "title"):
+        text = text.replace(f"\n{key}:", f"\n{quote}{key}{quote}:")
+    found.write_text(text, encoding="utf-8")
+    assert new("mine", "--like", str(found), "--title", "Mine") == exit_codes.OK
+    (made,) = load_file(tmp_path / "mine.yaml", Vary(poses=0)).cases
+    assert (made.id, made.title) == ("mine", "Mine")
+
+
 @pytest.mark.parametrize(("option", "word"), [("--op", "find_collisions"), ("--tag", "step-down")])
 def test_the_smallest_case_of_a_kind_is_taken(option: str, word: str, tmp_path: Path) -> None:
     """It has the operation, or the tag."""

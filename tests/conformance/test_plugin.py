@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import sys
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -132,7 +133,7 @@ def test_the_bug_that_this_suite_began_with(run: pytest.Pytester) -> None:
     result.stdout.fnmatch_lines(
         [
             "*contact_plane.d *-94.0 (0xC2BC0000)*-0.0 (0x80000000)*",
-            "*rerun: pytest *origin.yaml::origin-step-down-touching --candidate bug:cell-origin*",
+            "*rerun: pytest *origin.yaml::origin-step-down-touching --candidate bug:cell-origin",
             "*retail: *BSPTREE::step_sphere_down SD-1…SD-12*",
             "*| *- id: origin-step-down-touching",
             f"origin-step-down-touching: {reason}",
@@ -240,6 +241,25 @@ def test_a_part_that_compares_nothing_is_red(
     result.stdout.fnmatch_lines(["conformance: nothing was compared"])
 
 
+def test_what_failed_last_is_run_alone(run: pytest.Pytester) -> None:
+    """Then no case may be among it; what is mended is green."""
+    path = run.makepyfile("def test_fails(): assert False")
+    args = "--cases", str(ORIGIN), str(path), "-p", "cacheprovider", "--candidate", "oracle"
+    assert run.runpytest_subprocess(*args).ret == pytest.ExitCode.TESTS_FAILED
+    path.write_text("def test_fails(): pass", encoding="utf-8")
+    result = run.runpytest_subprocess(*args, "--lf")
+    result.assert_outcomes(passed=1)
+    assert result.ret == pytest.ExitCode.OK
+
+
+@pytest.mark.parametrize("option", ["--cache-show", "--fixtures", "--collect-only"])
+def test_who_only_looks_is_told_nothing(run: pytest.Pytester, option: str) -> None:
+    """Nothing was to be compared."""
+    result = run.runpytest_subprocess("--cases", str(ORIGIN), option)
+    assert result.ret == pytest.ExitCode.OK
+    result.stdout.no_fnmatch_line("conformance: no*")
+
+
 def test_an_unknown_candidate_is_an_error(run: pytest.Pytester) -> None:
     """With the nearest name."""
     result = run.runpytest_inprocess("--candidate", "orakle")
@@ -338,15 +358,27 @@ def test_a_broken_case_fails_and_the_others_run(run: pytest.Pytester) -> None:
     result.assert_outcomes(passed=1, failed=1)
     result.stdout.fnmatch_lines(
         [
-            "mine/a.yaml::one-unreadable FAILED*",
+            "mine/a.yaml::one FAILED*",
             "mine/a.yaml::two PASSED*",
             "*mine*a.yaml:3:5: cases[[]0[]].titel",
             "*the unknown key 'titel'",
             "*did you mean 'title'[?]",
             "*mine*a.yaml:4:10: cases[[]0[]].why",
-            "FAILED mine/a.yaml::one-unreadable - *no 'title'*(and 2 more)",
+            "FAILED mine/a.yaml::one - *no 'title'*(and 2 more)",
         ]
     )
+    again = run.runpytest_inprocess("mine/a.yaml::one", "--candidate", "oracle")
+    again.assert_outcomes(failed=1)
+    again.stdout.fnmatch_lines(["*the unknown key 'titel'"])
+
+
+@pytest.mark.skipif(sys.platform == "win32", reason="Windows asks for a right to make links")
+def test_a_link_is_a_file_of_its_folder(run: pytest.Pytester) -> None:
+    """Wherever it leads to."""
+    case_file(run, "elsewhere/a.yaml", GOOD.format(id="one"))
+    run.mkdir("mine")
+    (run.path / "mine" / "linked.yaml").symlink_to(run.path / "elsewhere" / "a.yaml")
+    run.runpytest_inprocess("--cases", "mine", "--candidate", "oracle").assert_outcomes(passed=1)
 
 
 def test_the_same_id_in_two_files_is_red(run: pytest.Pytester) -> None:
@@ -406,7 +438,7 @@ def test_options_change_the_poses(run: pytest.Pytester) -> None:
     result = run.runpytest_inprocess(*args, "--candidate", "oracle")
     result.stdout.fnmatch_lines(["conformance: 2 cases, 8 queries compared*"])
     result = run.runpytest_inprocess(*args, "--candidate", "bug:cell-origin")
-    result.stdout.fnmatch_lines(["*--candidate bug:cell-origin --poses 3 --pose-seed 7 --cases *"])
+    result.stdout.fnmatch_lines(["*--candidate bug:cell-origin --poses 3 --pose-seed 7"])
 
 
 def test_a_case_can_be_selected(run: pytest.Pytester) -> None:

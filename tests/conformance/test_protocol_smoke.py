@@ -102,7 +102,7 @@ def test_what_is_wrong_is_told(mode: str, step: str, said: str, vectors: Path) -
 
 
 def test_an_answer_with_nan_is_like_itself() -> None:
-    """NaN is not equal to itself, but an engine that gives it twice has not lost a scene; signs of zero count."""
+    """Not equal to itself, but who gives it twice has not lost a scene; signs of zero count."""
     nan, zero = Result({"plane": [math.nan, 1.0]}), Result({"plane": [0.0, 1.0]})
     assert smoke._alike(nan, Result({"plane": [float("nan"), 1.0]}))
     assert not smoke._alike(nan, zero)

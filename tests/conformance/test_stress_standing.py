@@ -1,4 +1,4 @@
-"""A candidate under stress that takes no part, or gives no answer: neither is another answer than retail's."""
+"""A candidate under stress that takes no part, or gives no answer: neither is a wrong answer."""
 
 from __future__ import annotations
 
