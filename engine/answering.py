@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any
 from engine.coherence import order_for
 from engine.errors import QueryError
 from engine.kernels import program
-from engine.plan import NO_PLAN, Plan
+from engine.plan import CHECK_PLAN, NO_PLAN, Plan
 from engine.threads import together
 from engine.tracing import runnable
 from engine.world import CHECK_WORLD
@@ -56,9 +56,10 @@ def answer(
     Raises
     ------
     QueryError
-        If `world` is none, or `threads` is not a number of threads.
+        If `world` or `plan` is none, or `threads` is not a number of threads.
     """
     CHECK_WORLD(world, "world", QueryError)
+    CHECK_PLAN(plan, "plan", QueryError)
     run = runnable(kernel)
     arrays = world.arrays_for(count, plan) if kernel is program.run else world.arrays
     order = order_for(count, coherent=coherent)

@@ -187,6 +187,8 @@ def _run(
 ) -> Rows:
     if rows.dtype != at.QUERY_DTYPE:
         raise QueryError("rows", "not of engine.layout.QUERY_DTYPE")
+    if rows.ndim != 1:
+        raise QueryError("rows", f"shape {rows.shape} where one row for each query is needed")
     # Of rows that may only be read Numba would compile everything once more.
     # What it has to be it is, as a rule: for NumPy to find that out takes a tenth of a call of one query.
     plain = rows if rows.flags.carray else np.require(rows, requirements=("C", "W"))

@@ -9,7 +9,7 @@ import numpy as np
 
 from engine import layout as at
 from engine.body_layout import BODY_DTYPE
-from engine.checks import finite, flag, number, optional, record, sequence, whole
+from engine.checks import finite, flag, number, optional, record, sequence, told, whole
 from engine.constants import ACTIVE_TS, DEFAULT_ELASTICITY, DEFAULT_FRICTION, DEFAULT_STATE
 from engine.errors import QueryError
 from engine.float32 import float32_array
@@ -20,6 +20,7 @@ from engine.world import CHECK_WORLD
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
+    from engine.kernels.types import Array
     from engine.query import Rows
     from engine.world import World
 
@@ -163,6 +164,45 @@ def body_rows(world: World, bodies: Sequence[Body]) -> Rows:
         _fill_body(row, body, where)
         rows_as_numbers(rows)[index, : at.POSITION_SIZE] = position_row(body.pose, where)
     return rows
+
+
+def given_body(world: World, body: Any) -> Rows:
+    """Return one row for a body, or for a record that an earlier tick or placement returned: a copy.
+
+    Raises
+    ------
+    QueryError, PoseError
+        If it is neither, or cannot be simulated.
+    """
+    if isinstance(body, Body):
+        return body_rows(world, [body])
+    if getattr(body, "dtype", None) != BODY_DTYPE or body.shape not in {(), (1,)}:
+        raise QueryError("body", f"{told(body)} where a Body, or a record of BODY_DTYPE, is needed")
+    rows = np.empty(1, dtype=BODY_DTYPE)
+    rows[0] = body if body.shape == () else body[0]
+    return rows
+
+
+def body_numbers(rows: Any) -> Array:
+    """Return bodies as kernels see them, who write to them: one row of numbers for each, the same memory.
+
+    Raises
+    ------
+    QueryError
+        If they are not records of `BODY_DTYPE` in one row, contiguous, aligned and writable.
+    """
+    if not isinstance(rows, np.ndarray):
+        raise QueryError("rows", f"{type(rows).__name__} where an array of BODY_DTYPE is needed")
+    if rows.dtype != BODY_DTYPE:
+        raise QueryError("rows", "not of engine.body_layout.BODY_DTYPE")
+    if rows.ndim != 1:
+        raise QueryError("rows", f"shape {rows.shape} where one row for each body is needed")
+    if not rows.flags.c_contiguous:
+        raise QueryError("rows", "not contiguous")
+    numbers = rows_as_numbers(rows)
+    if not (rows.flags.writeable and numbers.flags.aligned):
+        raise QueryError("rows", "not writable, or not aligned")
+    return numbers
 
 
 def _fill_body(row: Any, body: Body, where: str) -> None:

@@ -21,9 +21,12 @@ class InputError(EngineError, ValueError):
     """
 
     def __init__(self, where: str, problem: str) -> None:
-        super().__init__(f"{where}: {problem}")
+        super().__init__(where, problem)
         self.where = where
         self.problem = problem
+
+    def __str__(self) -> str:
+        return f"{self.where}: {self.problem}"
 
 
 class GeometryError(InputError):
@@ -59,12 +62,15 @@ class UndeterminedError(EngineError):
     """
 
     def __init__(self, index: int, results: Any = None) -> None:
-        super().__init__(
-            f"query {index}: retail's answer is not known: "
-            "a step down onto a sphere that sphere 0 passes beside (07 4.6, 07 11)"
-        )
+        super().__init__(index, results)
         self.index = index
         self.results = results
+
+    def __str__(self) -> str:
+        return (
+            f"query {self.index}: retail's answer is not known: "
+            "a step down onto a sphere that sphere 0 passes beside (07 4.6, 07 11)"
+        )
 
 
 class RecursionBoundError(EngineError, RuntimeError):

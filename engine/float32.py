@@ -29,7 +29,7 @@ def float32_array(
     """
     try:
         array = np.asarray(values, dtype=np.float64)
-    except (TypeError, ValueError) as cause:
+    except (TypeError, ValueError, OverflowError) as cause:
         raise error(where, f"not an array of numbers ({cause})") from cause
     if array.size == 0 and -1 in shape:
         array = array.reshape([0 if n == -1 else n for n in shape])

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from enum import IntEnum
-from typing import TYPE_CHECKING, Any, NamedTuple
+from typing import TYPE_CHECKING, Any, Final, NamedTuple
 
 import numpy as np
 
@@ -11,15 +11,20 @@ from engine import body_layout as of_body
 from engine import layout as at
 from engine.answering import answer
 from engine.batch import check_status
-from engine.body import Body, body_rows
+from engine.body import given_body
+from engine.checks import optional, whole
 from engine.errors import QueryError
 from engine.kernels import program
 from engine.memory import rows_as_numbers
 from engine.pose import pose_row
+from engine.world import CHECK_WORLD
 
 if TYPE_CHECKING:
     from engine.pose import Pose
     from engine.world import World
+
+
+_CHECK_CELL: Final = optional(whole())
 
 
 class PlacementResult(IntEnum):
@@ -89,7 +94,9 @@ def place(
     -----
     retail: CPhysicsObj::SetPosition 0x005160C0, SP-3...SP-7
     """
-    rows = _rows_of(world, body)
+    CHECK_WORLD(world, "world", QueryError)
+    _CHECK_CELL(cell, "cell", QueryError)
+    rows = given_body(world, body)
     placements = np.zeros(1, dtype=of_body.PLACEMENT_DTYPE)
     given = placements[0]
     given["pose"] = pose_row(pose, "pose")
@@ -102,13 +109,3 @@ def place(
         check_status(rows["status"])
     x, y, z = (float(c) for c in given["pose"][at.POSE_ORIGIN :])
     return Placement(PlacementResult(int(given["result"])), rows[0], (x, y, z))
-
-
-def _rows_of(world: World, body: Any) -> Any:
-    if isinstance(body, Body):
-        return body_rows(world, [body])
-    if body.dtype != of_body.BODY_DTYPE:
-        raise QueryError("body", "not of engine.body_layout.BODY_DTYPE")
-    rows = np.empty(1, dtype=of_body.BODY_DTYPE)
-    rows[0] = body
-    return rows

@@ -18,6 +18,8 @@ from enum import IntFlag
 from typing import Final
 
 from engine import layout as at
+from engine.checks import record, whole
+from engine.errors import QueryError
 
 
 class Stage(IntFlag):
@@ -41,6 +43,7 @@ class Stage(IntFlag):
 
 
 ALL_STAGES: Final = Stage.PORTALS | Stage.OBJECTS | Stage.GROUND | Stage.FLIGHT | Stage.BOUNDS | Stage.WALKS
+_CHECK_STAGES: Final = whole(0, int(ALL_STAGES))
 
 
 @dataclass(frozen=True, slots=True)
@@ -62,12 +65,18 @@ class Plan:
 
     skip: Stage = ALL_STAGES
 
+    def __post_init__(self) -> None:
+        """Raise `QueryError` if `skip` is no set of stages."""
+        _CHECK_STAGES(self.skip, "plan, skip", QueryError)
+
     @classmethod
     def none(cls) -> Plan:
         """Return the plan that leaves nothing out: retail's own way, test by test."""
         return cls(Stage(0))
 
 
+CHECK_PLAN: Final = record(Plan)
+"""Refuses what is no plan."""
 FULL_PLAN: Final = Plan()
 """What is used where nothing else is said."""
 CALL_PLAN: Final = Plan(Stage.BOUNDS | Stage.WALKS)
@@ -76,6 +85,15 @@ NO_PLAN: Final = Plan.none()
 
 
 def of_calls(plan: Plan) -> Plan:
-    """Return what of a plan single calls take: the other shortcuts are proven of whole transitions."""
+    """Return what of a plan single calls take: the other shortcuts are proven of whole transitions.
+
+    Raises
+    ------
+    QueryError
+        If it is none.
+    """
     # To combine flags takes as long as a query.
-    return plan if plan is CALL_PLAN else Plan(plan.skip & CALL_PLAN.skip)
+    if plan is CALL_PLAN:
+        return plan
+    CHECK_PLAN(plan, "plan", QueryError)
+    return Plan(plan.skip & CALL_PLAN.skip)

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any, Final
+from typing import TYPE_CHECKING, Any, Final, NoReturn
 
 import numpy as np
 
@@ -84,6 +84,10 @@ class Prepared:
             AS_ASKED,
             self._share,
         )
+
+    def __reduce__(self) -> NoReturn:
+        """Refuse to be copied or pickled: a copy's `result` would not be where its kernel writes."""
+        raise TypeError("a Prepared query cannot be copied or pickled; prepare another one")
 
     def run(self) -> Any:
         """Ask, and return `result`.

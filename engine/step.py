@@ -3,14 +3,14 @@
 from __future__ import annotations
 
 import math
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, Final
 
 import numpy as np
 
 from engine.answering import answer
 from engine.batch import check_status
-from engine.body import Body, body_rows
-from engine.body_layout import BODY_DTYPE
+from engine.body import body_numbers, given_body
+from engine.checks import whole
 from engine.constants import CHECK_ETHEREAL_TS, MAX_ELASTICITY, MAX_QUANTUM
 from engine.effort import check_tick
 from engine.errors import QueryError
@@ -18,7 +18,6 @@ from engine.float32 import float32_array
 from engine.kernels import program, tick_velocity
 from engine.kernels.tick_gates import MAX_TICKS
 from engine.layout import VECTOR_SIZE
-from engine.memory import rows_as_numbers
 from engine.plan import FULL_PLAN, Plan
 
 if TYPE_CHECKING:
@@ -29,6 +28,8 @@ if TYPE_CHECKING:
     from engine.kernels.types import Array
     from engine.query import Rows
     from engine.world import World
+
+_CHECK_TICKS: Final = whole()
 
 
 def step(world: World, body: Any, dt: float, *, plan: Plan = FULL_PLAN) -> Any:
@@ -60,13 +61,7 @@ def step(world: World, body: Any, dt: float, *, plan: Plan = FULL_PLAN) -> Any:
     -----
     retail: CPhysicsObj::UpdateObjectInternal 0x005156B0, UO-1...UO-11
     """
-    if isinstance(body, Body):
-        rows = body_rows(world, [body])
-    else:
-        rows = np.empty(1, dtype=BODY_DTYPE)
-        _check_type(body.dtype)
-        rows[0] = body
-    return step_many(world, rows, dt, 1, plan=plan)[0]
+    return step_many(world, given_body(world, body), dt, 1, plan=plan)[0]
 
 
 def step_many(
@@ -86,6 +81,7 @@ def step_many(
     If a body's tick fails, its row is left in the middle of that tick, with the reason in ``status``;
     the other bodies have done all of their ticks when the error is raised. See `step`.
     """
+    _CHECK_TICKS(ticks, "ticks", QueryError)
     quantum = float(float32_array([dt], (1,), "dt", QueryError)[0])
     if not quantum > 0.0:
         raise QueryError("dt", f"{dt} seconds is not greater than 0")
@@ -144,15 +140,11 @@ def update_many(
 
 def _ready(rows: Rows) -> Array:
     """Return rows as kernels see them, if they can tick."""
-    if not isinstance(rows, np.ndarray):
-        raise QueryError("rows", f"{type(rows).__name__} where an array of BODY_DTYPE is needed")
-    _check_type(rows.dtype)
-    if not rows.flags.c_contiguous:
-        raise QueryError("rows", "not contiguous")
+    numbers = body_numbers(rows)
     ethereal = rows["transient_state"].astype(np.int64) & CHECK_ETHEREAL_TS
     for index in np.flatnonzero((ethereal != 0) & (rows["has_parent"] == 0)):
         raise QueryError(f"body {index}", "becoming solid again needs registration in cells (UO-2)")
-    return rows_as_numbers(rows)
+    return numbers
 
 
 def set_velocity(rows: Rows, velocities: npt.ArrayLike) -> None:
@@ -196,16 +188,13 @@ def set_elasticity(rows: Rows, elasticity: npt.ArrayLike) -> None:
     -----
     retail: CPhysicsObj::set_elasticity, 06 1
     """
+    body_numbers(rows)
     values = float32_array(elasticity, (len(rows),), "elasticity", QueryError)
     rows["elasticity"] = np.clip(values, 0.0, MAX_ELASTICITY)
 
 
 def _give(kernel: Callable[..., None], rows: Rows, velocities: npt.ArrayLike) -> None:
-    values = float32_array(velocities, (len(rows), int(VECTOR_SIZE)), "velocities", QueryError)
-    for numbers, (x, y, z) in zip(rows_as_numbers(rows), values, strict=True):
+    bodies = body_numbers(rows)
+    values = float32_array(velocities, (len(bodies), int(VECTOR_SIZE)), "velocities", QueryError)
+    for numbers, (x, y, z) in zip(bodies, values, strict=True):
         kernel(numbers, float(x), float(y), float(z))
-
-
-def _check_type(dtype: np.dtype[Any]) -> None:
-    if dtype != BODY_DTYPE:
-        raise QueryError("rows", "not of engine.body_layout.BODY_DTYPE")

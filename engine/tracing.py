@@ -36,6 +36,10 @@ class UnknownTopicError(QueryError):
         self.topic = topic
         super().__init__("topics", f"unknown topic {topic!r}; there are: {', '.join(TOPICS)}")
 
+    def __reduce__(self) -> tuple[type[UnknownTopicError], tuple[str]]:
+        """Be pickled by the topic, of which the rest is made."""
+        return type(self), (self.topic,)
+
 
 @contextmanager
 def recording(topics: Collection[str] = TOPICS) -> Iterator[WriteTrace]:

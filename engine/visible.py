@@ -5,10 +5,12 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from engine import layout as at
+from engine.checks import whole
 from engine.constants import FIRST_INDOOR
 from engine.errors import QueryError
 from engine.float32 import float32_array
 from engine.kernels.cell_list import point_in_cell
+from engine.world import CHECK_WORLD
 
 if TYPE_CHECKING:
     from collections.abc import Iterator, Sequence
@@ -45,6 +47,8 @@ def find_visible_child_cell(
     -----
     retail: CEnvCell::find_visible_child_cell 0x0052DC50, 09 7
     """
+    CHECK_WORLD(world, "world", QueryError)
+    whole()(cell, "cell", QueryError)
     index = world.cell_index(cell)
     if index == at.NO_CELL or cell & 0xFFFF < FIRST_INDOOR:
         raise QueryError("cell", f"{cell:#010x} is not an environment cell of the world")

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+import pickle
 from dataclasses import fields, replace
 from functools import partial
 from typing import TYPE_CHECKING, Any
@@ -28,32 +29,44 @@ from engine import (
     Obstacle,
     Part,
     PathState,
+    Plan,
     Portal,
     Pose,
     QueryError,
     Restriction,
     Seed,
     Shape,
+    Stage,
+    UndeterminedError,
     Weenie,
     World,
     find_collisions,
     find_collisions_many,
     find_object_collisions,
     find_object_collisions_many,
+    find_visible_child_cell,
+    place,
     resolve,
     resolve_many,
+    set_elasticity,
+    set_local_velocity,
+    set_velocity,
     step,
     step_many,
     strike_many,
+    update_many,
 )
 from engine import layout as at
+from engine.body import body_rows
 from engine.body_layout import BODY_DTYPE
 from engine.checks import finite, flag, keyed, number, optional, record, several, told, whole
+from engine.tracing import UnknownTopicError
 
 if TYPE_CHECKING:
     from collections.abc import Callable
 
 CELL = 0xA9B40100
+ERRORS = [QueryError("move 3", "lost"), UndeterminedError(3, [1.0]), UnknownTopicError("steps")]
 HERE, THERE = Pose(CELL, (50.0, 50.0, 0.0)), Pose(CELL, (50.2, 50.0, 0.0))
 LEAF = Leaf((0.0, 0.0, 0.0, 10.0), (0,))
 CORNERS = [(-5.0, -5.0, 0.0), (5.0, -5.0, 0.0), (0.0, 5.0, 0.0)]
@@ -282,3 +295,112 @@ def test_bodies_are_rows() -> None:
     world = World([Cell(CELL, Pose(CELL, (0.0, 0.0, 0.0)), FLOOR)])
     with pytest.raises(QueryError, match=r"^rows: list where an array of BODY_DTYPE is needed$"):
         step_many(world, [Body(HERE, [(0.0, 0.0, 0.5, 0.5)])], 0.1, 1)  # type: ignore[arg-type]
+
+
+def bodies() -> tuple[World, Any]:
+    """Return a world, and rows of one body in it."""
+    world = World([Cell(CELL, Pose(CELL, (0.0, 0.0, 0.0)), FLOOR)])
+    return world, body_rows(world, [Body(HERE, [(0.0, 0.0, 0.5, 0.5)])])
+
+
+def unwritable(rows: Any) -> Any:
+    """Return a copy that may only be read."""
+    copy = rows.copy()
+    copy.flags.writeable = False
+    return copy
+
+
+def unaligned(rows: Any) -> Any:
+    """Return a copy that begins between two numbers."""
+    room = np.zeros(rows.nbytes + 1, np.uint8)
+    room[1:] = rows.view(np.uint8)
+    return room[1:].view(rows.dtype)
+
+
+@pytest.mark.parametrize(
+    ("change", "said"),
+    [
+        (lambda _: np.zeros(12), "not of engine.body_layout.BODY_DTYPE"),
+        (lambda rows: rows["velocity"].copy(), "not of engine.body_layout.BODY_DTYPE"),
+        (lambda rows: rows.reshape(1, 1), r"shape \(1, 1\) where one row for each body is needed"),
+        (lambda rows: np.repeat(rows, 4)[::2], "not contiguous"),
+        (unwritable, "not writable, or not aligned"),
+        (unaligned, "not writable, or not aligned"),
+    ],
+)
+def test_kernels_write_to_bodies_only(change: Callable[[Any], Any], said: str) -> None:
+    """Whoever changes rows in place takes nothing else for them: a kernel would write beyond its end."""
+    world, rows = bodies()
+    wrong = change(rows)
+    velocities = np.zeros((len(wrong), 3))
+    questions: list[Callable[[], Any]] = [
+        lambda: set_velocity(wrong, velocities),
+        lambda: set_local_velocity(wrong, velocities),
+        lambda: set_elasticity(wrong, velocities[:, 0]),
+        lambda: step_many(world, wrong, 0.1, 1),
+        lambda: update_many(world, wrong, 0.1),
+    ]
+    for ask in questions:
+        with pytest.raises(QueryError, match=rf"^rows: {said}$"):
+            ask()
+
+
+@pytest.mark.parametrize("ticks", [2.5, math.nan, -1, 10**18, "2", None])
+def test_ticks_are_counted(ticks: Any) -> None:
+    """In whole numbers that end some day; none is one of them, and changes nothing."""
+    world, rows = bodies()
+    with pytest.raises(QueryError, match=r"^ticks: "):
+        step_many(world, rows, 0.1, ticks)
+    assert step_many(world, rows.copy(), 0.1, 0).tobytes() == rows.tobytes()
+
+
+@pytest.mark.parametrize("rows", [np.zeros((2, 3), at.QUERY_DTYPE), np.zeros((), at.QUERY_DTYPE)])
+def test_queries_are_in_one_row(rows: Any) -> None:
+    """Of a table nobody knows which are meant."""
+    world, _ = bodies()
+    for ask in (resolve_many, find_collisions_many, find_object_collisions_many):
+        with pytest.raises(QueryError, match=r"^rows: shape .* where one row for each query is needed$"):
+            ask(world, rows)
+
+
+@pytest.mark.parametrize("plan", [None, Stage.BOUNDS, "none"])
+def test_what_is_no_plan_is_told(plan: Any) -> None:
+    """A stage is none: a plan says what to do with it."""
+    world, rows = bodies()
+    empty = np.zeros(0, at.QUERY_DTYPE)
+    questions: list[Callable[[], Any]] = [
+        lambda: resolve_many(world, empty, plan=plan),
+        lambda: find_collisions_many(world, empty, plan=plan),
+        lambda: step_many(world, rows, 0.1, 1, plan=plan),
+    ]
+    for ask in questions:
+        with pytest.raises(QueryError, match=r"^plan: .* where a Plan is needed$"):
+            ask()
+    with pytest.raises(QueryError, match=r"^plan, skip: 'all' where a whole number is needed$"):
+        Plan("all")  # type: ignore[arg-type]
+
+
+def test_what_is_no_cell_or_body_is_told() -> None:
+    """With what was found."""
+    world, rows = bodies()
+    wrong: Any = "hall"
+    with pytest.raises(QueryError, match=r"^cell: 'hall' where a whole number is needed$"):
+        find_visible_child_cell(world, wrong, (0.0, 0.0, 0.0), search_stabs=True)
+    with pytest.raises(QueryError, match=r"^cell: 'hall' where a whole number is needed$"):
+        place(world, rows[0], HERE, wrong)
+    for ask in (lambda: step(world, wrong, 0.1), lambda: place(world, wrong, HERE, CELL)):
+        with pytest.raises(
+            QueryError, match=r"^body: 'hall' where a Body, or a record of BODY_DTYPE, is needed$"
+        ):
+            ask()
+    with pytest.raises(QueryError, match=r"^velocities: not an array of numbers \(int too large"):
+        set_velocity(rows, [[10**400, 0, 0]])
+
+
+@pytest.mark.parametrize("error", ERRORS)
+def test_errors_go_to_other_processes(error: EngineError) -> None:
+    """As what they are, with all that they say: a pool waits for ever for one that cannot be read."""
+    read = pickle.loads(pickle.dumps(error))  # noqa: S301 - our own
+    assert type(read) is type(error)
+    assert str(read) == str(error)
+    assert vars(read) == vars(error)

@@ -2,12 +2,18 @@
 
 from __future__ import annotations
 
+import copy
+import pickle
 from dataclasses import replace
+from typing import TYPE_CHECKING
 
 import pytest
 from engine_scenes import CELL, R, at, floor_and_wall, mover, world_of
 
 from engine import CollisionCall, Move, PathState, Prepared, QueryError, find_collisions, resolve
+
+if TYPE_CHECKING:
+    from collections.abc import Callable
 
 MOVE = Move(mover(), at(0.5, 0, R), CELL, start=at(0, 0, 2 * R))
 CALL = CollisionCall(MOVE, path=PathState(step_down=1, step_down_amt=0.5, walk_interp=1.0))
@@ -43,3 +49,10 @@ def test_what_cannot_be_asked_is_refused_at_once() -> None:
     """Before the first run."""
     with pytest.raises(QueryError, match="begin cell"):
         Prepared(world_of(floor_and_wall()), replace(MOVE, begin_cell=CELL + 1))
+
+
+@pytest.mark.parametrize("copied", [copy.copy, copy.deepcopy, pickle.dumps])
+def test_it_is_not_copied(copied: Callable[[Prepared], object]) -> None:
+    """A copy's kernel would write its answer elsewhere than where it is read."""
+    with pytest.raises(TypeError, match="cannot be copied or pickled"):
+        copied(Prepared(world_of(floor_and_wall()), MOVE))
