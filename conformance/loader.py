@@ -91,7 +91,7 @@ def case_files(path: Path) -> list[Path]:
     """List the case files at or below a path, sorted; raises `NoCasesError` if there are none.
 
     Folders below it that pytest does not enter are left out by everybody: hidden ones, what builds leave
-    behind, and virtual environments.
+    behind, and virtual environments. A file that links lead to as well is listed once.
     """
     path = installed(path)
     if path.is_file():
@@ -101,7 +101,8 @@ def case_files(path: Path) -> list[Path]:
     files = [file for file in _below(path) if file.suffix in CASE_SUFFIXES and file.is_file()]
     if not files:
         raise NoCasesError(f"no *.yaml file in {path}")
-    return sorted(files, key=lambda file: file.relative_to(path).as_posix())
+    in_order = sorted(files, key=lambda file: file.relative_to(path).as_posix())
+    return list({file.resolve(): file for file in reversed(in_order)}.values())[::-1]
 
 
 def _below(folder: Path) -> Iterator[Path]:

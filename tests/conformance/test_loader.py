@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import sys
 from pathlib import Path
 
 import pytest
@@ -188,6 +189,16 @@ def test_folders_that_pytest_does_not_enter_are_left_out(tmp_path: Path) -> None
         write(tmp_path, name, POINT)
     assert [file.name for file in case_files(tmp_path)] == [".hidden.yaml", "a.yaml"]
     assert case_files(tmp_path / "build") == [tmp_path / "build" / "a.yaml"]
+
+
+@pytest.mark.skipif(sys.platform == "win32", reason="Windows asks for a right to make links")
+def test_a_file_and_a_link_to_it_are_one(tmp_path: Path) -> None:
+    """Its cases are not there twice."""
+    write(tmp_path, "b.yaml", POINT)
+    (tmp_path / "a.yaml").symlink_to(tmp_path / "b.yaml")
+    (tmp_path / "c.yaml").symlink_to(tmp_path / "b.yaml")
+    assert case_files(tmp_path) == [tmp_path / "a.yaml"]
+    assert load_paths([tmp_path]).problems == ()
 
 
 def test_nothing_is_green_on_nothing(tmp_path: Path) -> None:
