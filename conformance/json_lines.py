@@ -21,7 +21,6 @@ MAX_LINE_BYTES: Final = 1 << 24
 
 _STARTS: Final = {dict: "an object", list: "a list", str: "a string", int: "a number", float: "a number"}
 _UTF16_MARKS: Final = (codecs.BOM_UTF16_LE, codecs.BOM_UTF16_BE)
-_ESCAPED_SURROGATE: Final = re.compile(r"\\u[dD][89a-fA-F]")
 _PERHAPS_TOO_LARGE: Final = re.compile(r"[eE]\+?[0-9]{3}|[0-9]{300}")
 """What a number beyond float64 looks like."""
 
@@ -56,8 +55,6 @@ def _read_line(name: Path, number: int, raw: bytes) -> tuple[int, dict[str, Any]
     try:
         text = raw.decode("utf-8-sig" if number == 1 else "utf-8")
         record = read_json(text, _finite if _PERHAPS_TOO_LARGE.search(text) else float)
-        if _ESCAPED_SURROGATE.search(text):
-            _check_text(record)
     except UnicodeDecodeError as error:
         reason = "UTF-16" if raw.startswith(_UTF16_MARKS) else error.reason
         return _malformed(f"not UTF-8: {reason}", name, number, error.start + 1)
@@ -84,12 +81,3 @@ def _finite(text: str) -> float:
     if math.isinf(number):
         raise ValueError(f"{text[:20]} is beyond any float")
     return number
-
-
-def _check_text(record: Any) -> None:
-    """Refuse half of a surrogate pair, which is no character and cannot be written in UTF-8."""
-    try:
-        json.dumps(record, ensure_ascii=False).encode("utf-8")
-    except UnicodeEncodeError as error:
-        half = ord(error.object[error.start])
-        raise ValueError(f"half a character, U+{half:04X}, expected text") from None

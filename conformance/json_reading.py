@@ -83,8 +83,8 @@ def _refuse_halves(value: Any) -> None:
     try:
         json.dumps(value, ensure_ascii=False, default=str).encode()
     except UnicodeEncodeError as error:
-        half = f"\\u{ord(error.object[error.start]):04x}"
-        raise LooseJsonError(f"{half}, half of a surrogate pair", "whole characters") from None
+        half = ord(error.object[error.start])
+        raise LooseJsonError(f"half a character, U+{half:04X}", "text") from None
 
 
 def _refuse_constant(name: str) -> float:

@@ -65,15 +65,15 @@ def load_paths(paths: Sequence[Path] = (), vary: Vary = AS_WRITTEN) -> Loaded:
     NoCasesError
         A path is not there, holds no case file, or its files hold neither a case nor a problem.
     """
-    loaded: list[Loaded] = []
+    loaded: dict[Path, Loaded] = {}
     for path in paths or (BUILT_IN_CASES,):
-        below = [load_file(file, vary) for file in case_files(path)]
-        if not any(one.cases or one.problems for one in below):
+        files = {file.resolve(): file for file in case_files(path)}
+        loaded |= {place: load_file(file, vary) for place, file in files.items() if place not in loaded}
+        if not any(loaded[place].cases or loaded[place].problems for place in files):
             raise NoCasesError(f"no case in {path}")
-        loaded += below
-    cases = [case for one in loaded for case in one.cases]
+    cases = [case for one in loaded.values() for case in one.cases]
     duplicates, kept = split_duplicates(cases)
-    problems = [problem for one in loaded for problem in one.problems]
+    problems = [problem for one in loaded.values() for problem in one.problems]
     return Loaded(tuple(kept), (*problems, *duplicates))
 
 

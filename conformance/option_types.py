@@ -4,10 +4,13 @@ from __future__ import annotations
 
 import argparse
 import math
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Final
 
 if TYPE_CHECKING:
     from collections.abc import Callable
+
+MOST: Final = 1e6
+"""Of what is measured: of seconds, no system waits for many times as many."""
 
 
 def whole_from(least: int) -> Callable[[str], int]:
@@ -26,15 +29,16 @@ def whole_from(least: int) -> Callable[[str], int]:
 
 
 def positive(unit: str) -> Callable[[str], float]:
-    """Return what reads a number of `unit` that is more than 0 and not endless; raises as `whole_from`."""
+    """Return what reads a number of `unit`, more than 0 and at most `MOST`; raises as `whole_from`."""
 
     def read(text: str) -> float:
         try:
             number = float(text)
         except ValueError:
             number = math.nan
-        if not 0.0 < number < math.inf:
-            raise argparse.ArgumentTypeError(f"found {text}, expected {unit}, more than 0")
+        if not 0.0 < number <= MOST:
+            limits = "more than 0" if not number > 0.0 else f"at most {MOST:g}"
+            raise argparse.ArgumentTypeError(f"found {text}, expected {unit}, {limits}")
         return number
 
     return read

@@ -30,7 +30,9 @@ FIXTURES_VARIABLE: Final = "RETAIL_FIXTURES"
 DEFAULT_CANDIDATE: Final = "engine"
 
 _FOLDERS: Final = pytest.StashKey["tuple[Path, ...]"]()
+_GIVEN: Final = pytest.StashKey["list[Path]"]()
 _EXPECTS_CASES: Final = pytest.StashKey[bool]()
+_ASKS_FOR_ALL: Final = pytest.StashKey[bool]()
 _RUNS: Final = pytest.StashKey[bool]()
 _COLLECTED: Final = pytest.StashKey[int]()
 _TALLY: Final = pytest.StashKey["Tally"]()
@@ -122,7 +124,8 @@ def pytest_configure(config: pytest.Config) -> None:
 
         tolerate_unprintable()
     found = _found_cases(config) if asks_for_all else []
-    config.stash[_FOLDERS] = (*folders, *named)
+    config.stash[_FOLDERS], config.stash[_GIVEN] = (*folders, *named), given
+    config.stash[_ASKS_FOR_ALL] = asks_for_all
     config.args[:] = [
         *(str(path) for path in found if not _covers(config, path)),
         *config.args,
@@ -247,7 +250,9 @@ def pytest_collect_file(file_path: Path, parent: pytest.Collector) -> pytest.Col
 
 @pytest.hookimpl(tryfirst=True)
 def pytest_ignore_collect(collection_path: Path, config: pytest.Config) -> bool | None:
-    """Let a run of the suite enter the folder of found cases, which is hidden."""
+    """Let a run enter the folders that it is given, and that of found cases, which is hidden."""
+    if any(folder.is_relative_to(collection_path.resolve()) for folder in config.stash[_GIVEN]):
+        return False
     if collection_path.name.startswith(".") and config.stash[_EXPECTS_CASES]:
         return False if _found_folder(config).is_relative_to(collection_path.resolve()) else None
     return None
@@ -261,10 +266,11 @@ def pytest_collection_modifyitems(config: pytest.Config, items: list[pytest.Item
     if cases:
         found = _found_folder(config)
         items.sort(key=lambda item: not item.path.resolve().is_relative_to(found))
-        from conformance.deviations.known import unknown_cases
+        if config.stash[_ASKS_FOR_ALL]:
+            from conformance.deviations.known import unknown_cases
 
-        folders = config.stash[_FOLDERS]
-        config.stash[_COMPLAINTS] += unknown_cases(config, cases, folders)
+            folders = config.stash[_FOLDERS]
+            config.stash[_COMPLAINTS] += unknown_cases(config, cases, folders)
 
 
 @pytest.hookimpl(tryfirst=True)

@@ -110,10 +110,13 @@ def run(args: argparse.Namespace) -> int:
     parties = _parties(gate, args)
     seen.checks += unknown_deviations(parties.deviations, every) if Stage.CASES in seen.asked else []
     measured = _run(seen, parties, cases, baseline, budget)
-    written = write_evidence(seen, parties)
-    if measured is not None and args.write_baseline is not None:
-        write_text(args.write_baseline, measured.to_json())
-    _show(make_console(), seen, written[0].parent)
+    console = make_console()
+    try:
+        write_evidence(seen, parties)
+        if measured is not None and args.write_baseline is not None:
+            write_text(args.write_baseline, measured.to_json())
+    finally:  # what minutes have shown is told, wherever it cannot be written
+        _show(console, seen, parties.evidence)
     return seen.exit_code
 
 

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import argparse
 import codecs
+import io
 import math
 from pathlib import Path
 from typing import TYPE_CHECKING, Final
@@ -91,8 +92,7 @@ def _read(path: Path, rule: Rule) -> LogReport:
 
 
 def _open(path: Path) -> TextIO:
-    """Open a log; what PowerShell redirects to a file is UTF-16."""
-    with path.open("rb") as stream:
-        mark = stream.read(2)
-    encoding = "utf-16" if mark in _UTF16_MARKS else "utf-8-sig"
-    return path.open(encoding=encoding, errors="replace")
+    """Open a log, once: it may be a pipe. What PowerShell redirects to a file is UTF-16."""
+    stream = path.open("rb")
+    encoding = "utf-16" if stream.peek(2)[:2] in _UTF16_MARKS else "utf-8-sig"
+    return io.TextIOWrapper(stream, encoding=encoding, errors="replace")

@@ -22,6 +22,7 @@ if TYPE_CHECKING:
     from conformance.gate.parties import Parties
 
 SUMMARY: Final = "summary.json"
+REPORT: Final = "report.html"
 SUMS: Final = "SHA256SUMS"
 _COLOURS: Final = {
     exit_codes.OK: "brightgreen",
@@ -56,8 +57,10 @@ def write_evidence(run: GateRun, parties: Parties) -> list[Path]:
         "environment.json": _json(_environment(parties)),
         "seeds.json": _json(_seeds(parties)),
         "badge.json": _json(badge_record(run)),
-        **({"report.html": run.report} if run.report else {}),
+        **({REPORT: run.report} if run.report else {}),
     }
+    if not run.report:
+        (folder / REPORT).unlink(missing_ok=True)  # of an earlier run in the same folder
     for name, text in texts.items():
         write_text(folder / name, text)
     written = [folder / name for name in texts]

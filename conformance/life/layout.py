@@ -85,11 +85,12 @@ def _same(document: Document, text: str, name: str) -> Document:
 def _in_order(document: Document) -> list[str]:
     """Return the lines of a document with the keys of each case in order."""
     lines = list(document.lines)
+    keys_of = _keys(document)
     for below, end in _cases(document):
-        keys = _keys(document, below)
+        keys = keys_of.get(below, [])
         if keys and len({line for line, _ in keys}) == len(keys):
             first = keys[0][0] - 1
-            lines[first:end] = _sorted(lines[:end], keys)
+            lines[first:end] = _sorted(lines[first:end], [(line - first, key) for line, key in keys])
     return lines
 
 
@@ -109,27 +110,24 @@ def _cases(document: Document) -> Iterator[tuple[DocPath, int]]:
     yield from zip(items, [*ends, last], strict=True)
 
 
-def _keys(document: Document, below: DocPath) -> list[tuple[int, str]]:
-    """List the keys of a case with their lines, in the order of the file."""
-    depth = len(below)
-    return sorted(
-        (place[0], str(path[depth]))
-        for path, place in document.keys.items()
-        if len(path) == depth + 1 and path[:depth] == below
-    )
+def _keys(document: Document) -> dict[DocPath, list[tuple[int, str]]]:
+    """List the keys of each mapping with their lines, in the order of the file."""
+    keys: dict[DocPath, list[tuple[int, str]]] = {}
+    for path, place in document.keys.items():
+        keys.setdefault(path[:-1], []).append((place[0], str(path[-1])))
+    return {below: sorted(found) for below, found in keys.items()}
 
 
 def _sorted(lines: list[str], keys: list[tuple[int, str]]) -> list[str]:
-    """Sort the lines of a case, which are the last of `lines`, by its keys."""
-    start = keys[0][0] - 1
-    head = lines[start]
+    """Sort the lines of a case by its keys, whose lines are counted from 1; the first key is in the first."""
+    head = lines[0]
     is_item = head.lstrip().startswith(f"{_DASH} ")
     dash = head.index(_DASH) if is_item else 0
-    own = [*lines[:start], f"{head[:dash]} {head[dash + 1 :]}" if is_item else head, *lines[start + 1 :]]
+    own = [f"{head[:dash]} {head[dash + 1 :]}" if is_item else head, *lines[1:]]
     end = len(own)
     while end > keys[-1][0] and _is_aside(own[end - 1]):
         end -= 1
-    starts = [start, *(_lead(own, line) for line, _ in keys[1:]), end]
+    starts = [0, *(_lead(own, line) for line, _ in keys[1:]), end]
     blocks = [
         _Block(key, own[first:last])
         for (_, key), first, last in zip(keys, starts[:-1], starts[1:], strict=True)

@@ -1,13 +1,15 @@
 """Rows made for another world, or changed since: the numbers in them that kernels look things up by.
 
-All else in a row may be any number: it makes wrong answers at most.
+Ids of cells are among them: in a list of cells, one that is not loaded is the negative of its id. All else
+in a row may be any number: it makes wrong answers at most.
 """
 
 from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from engine.body_layout import B_CELL, B_NUM_RECORDS, B_NUM_SPHERE, MAX_RECORDS
+from engine.body_layout import B_CELL, B_NUM_RECORDS, B_NUM_SPHERE, B_POSITION, MAX_RECORDS
+from engine.checks import LARGEST_ID
 from engine.constants import TARGET_CELL, TARGET_ENTRY, TARGET_OBJECT, TARGET_OBJECTS
 from engine.kernels.cell_array import ints_of
 from engine.kernels.compile import inlined, kernel
@@ -25,7 +27,9 @@ from engine.layout import (
     PART_INTS,
     PART_TREE,
     Q_BEGIN_CELL,
+    Q_END,
     Q_NUM_SPHERE,
+    Q_START,
     Q_TARGET_CELL,
     Q_TARGET_KIND,
     Q_TARGET_OBJECT,
@@ -38,6 +42,8 @@ from engine.layout import (
 
 if TYPE_CHECKING:
     from engine.kernels.types import Array, Ints
+
+_LARGEST_ID = float(LARGEST_ID)
 
 
 @inlined
@@ -53,6 +59,12 @@ def _is_cell(wi: Ints, number: float) -> bool:
 
 
 @inlined
+def _is_id(number: float) -> bool:
+    """Say whether a number is the id of some cell: of none in the world it says where it would be."""
+    return 0.0 <= number <= _LARGEST_ID
+
+
+@inlined
 def _object(wi: Ints, q: Array) -> int:
     """Return where the record of the object lies that a query names."""
     return wi[WORLD_OBJECT_INTS] + OBJECT_INTS * int(q[Q_TARGET_OBJECT])
@@ -60,8 +72,13 @@ def _object(wi: Ints, q: Array) -> int:
 
 @inlined
 def is_strange_move(wi: Ints, q: Array) -> bool:
-    """Say whether a query begins in a cell that its world doesn't have, or has too many spheres."""
-    return not (_is_cell(wi, q[Q_BEGIN_CELL]) and 0.0 <= q[Q_NUM_SPHERE] <= MAX_SPHERES)
+    """Say whether a query is nowhere, begins where its world has no cell, or has too many spheres."""
+    return not (
+        _is_cell(wi, q[Q_BEGIN_CELL])
+        and _is_id(q[Q_START])
+        and _is_id(q[Q_END])
+        and 0.0 <= q[Q_NUM_SPHERE] <= MAX_SPHERES
+    )
 
 
 @kernel
@@ -96,9 +113,10 @@ def is_strange_meeting(wi: Ints, q: Array) -> bool:
 
 @kernel
 def is_strange_body(wi: Ints, b: Array) -> bool:
-    """Say whether a body is in a cell that its world doesn't have, or has too many spheres or records."""
+    """Say whether a body is nowhere, or where its world has no cell, or has too many spheres or records."""
     return not (
         _is_cell(wi, b[B_CELL])
+        and _is_id(b[B_POSITION])
         and 0.0 <= b[B_NUM_SPHERE] <= MAX_SPHERES
         and 0.0 <= b[B_NUM_RECORDS] <= MAX_RECORDS
     )

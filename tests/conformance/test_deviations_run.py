@@ -80,6 +80,14 @@ def test_one_about_no_case_is_red(run: pytest.Pytester) -> None:
     result.stdout.fnmatch_lines(["conformance: *bug.yaml:3:5: the deviation is about no case*"])
 
 
+def test_one_about_a_case_of_another_file_is_not(run: pytest.Pytester) -> None:
+    """Who runs one file has not asked for all that the record may be about."""
+    path = deviation_file(run.path)
+    planes = loader.BUILT_IN_CASES / "math" / "planes.yaml"
+    result = run.runpytest_inprocess(str(planes), "--deviations", str(path), "--candidate", "oracle")
+    assert result.ret == pytest.ExitCode.OK
+
+
 def test_one_about_a_case_left_out_is_not(run: pytest.Pytester) -> None:
     """A part of a run is no reason to remove it."""
     result = ran(run, *BUG, "-k", "not touching")

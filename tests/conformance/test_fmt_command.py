@@ -87,7 +87,9 @@ def test_keys_are_put_in_order_with_their_comments() -> None:
     assert laid_out(TIDY) == TIDY
 
 
-@pytest.mark.parametrize("text", ["cases: []\n", "cases:\n  - &a {id: one, title: x}\n  - *a\n"])
+@pytest.mark.parametrize(
+    "text", ["cases: []\n", "cases: [1, {}]\n", "cases:\n  - &a {id: one, title: x}\n  - *a\n"]
+)
 def test_a_file_without_lines_to_move_stays(text: str) -> None:
     """No case at all, or one that is said to be another: what is wrong with it is for `lint` to say."""
     assert (

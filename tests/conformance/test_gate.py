@@ -137,6 +137,24 @@ def test_the_report_shows_the_scene_of_what_fails(gate: Gate, monkeypatch: pytes
     assert 'class="view"' not in (gate.evidence / "report.html").read_text(encoding="utf-8")
 
 
+def test_the_report_of_an_earlier_run_does_not_stay(gate: Gate) -> None:
+    """Beside evidence of a run that asks no cases nobody would know what it is about."""
+    gate(candidate="bug:cell-origin")
+    assert (gate.evidence / "report.html").exists()
+    gate.config.write_text("poses: {count: 1, seed: 3}\n", encoding="utf-8")
+    assert gate(candidate="oracle", stage="poses") == exit_codes.OK
+    assert not (gate.evidence / "report.html").exists()
+
+
+def test_the_verdict_is_told_where_it_cannot_be_written(
+    gate: Gate, capsys: pytest.CaptureFixture[str]
+) -> None:
+    """After minutes, with the exit code of what could not be done."""
+    gate.evidence.write_text("in the way", encoding="utf-8")
+    assert gate(candidate="bug:cell-origin") == exit_codes.CANNOT_WRITE
+    assert "gate: disagreement" in capsys.readouterr().out
+
+
 def test_a_recorded_bug_passes(gate: Gate) -> None:
     """And is counted; a record that does not show is a disagreement."""
     path = deviation_file(gate.folder)

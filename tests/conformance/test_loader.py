@@ -201,6 +201,13 @@ def test_a_file_and_a_link_to_it_are_one(tmp_path: Path) -> None:
     assert load_paths([tmp_path]).problems == ()
 
 
+def test_paths_may_overlap(tmp_path: Path) -> None:
+    """A file of a folder that is named as well is read once."""
+    write(tmp_path, "a.yaml", POINT)
+    loaded = load_paths([tmp_path, tmp_path / "a.yaml"])
+    assert (len(loaded.cases), loaded.problems) == (1, ())
+
+
 def test_nothing_is_green_on_nothing(tmp_path: Path) -> None:
     """A mistyped path and an empty folder are errors."""
     with pytest.raises(NoCasesError, match="does not exist"):

@@ -42,7 +42,7 @@ BAD_REPLIES = {
     "missing": r"nothing at result.v, expected a value",
     "short": r"\[0, 0\] \(list\) at result.v, expected 3 numbers",
     "errored": r"out of cells",
-    "surrogate": r"found \\ud83d, half of a surrogate pair: '\{.*, expected whole characters",
+    "surrogate": r"found half a character, U\+D83D: '\{.*, expected text",
 }
 """What is recorded for the query at which an engine goes wrong."""
 BAD_STARTS = {

@@ -2,7 +2,10 @@
 
 from __future__ import annotations
 
+import os
 import re
+import sys
+import threading
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -223,6 +226,18 @@ def test_a_log_in_any_encoding(encoding: str, tmp_path: Path, capsys: pytest.Cap
     path.write_bytes("[state] State: 0x0 -> 0x1 caller=f\r\nné\r\n".encode(encoding))
     code, lines, _ = run(capsys, "trace-log", path)
     assert (code, lines[0]) == (0, f"{path}: 2 lines, 1 writes, 1 other lines ignored, 0 malformed")
+
+
+@pytest.mark.skipif(sys.platform == "win32", reason="Windows has no pipes with a name in a folder")
+def test_a_log_may_be_a_pipe(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    """It can be read once only: nothing of its beginning is lost."""
+    pipe = tmp_path / "pipe"
+    os.mkfifo(pipe)
+    writer = threading.Thread(target=log_of, args=(pipe, *["[state] State: 0x0 -> 0x1 caller=f"] * 1000))
+    writer.start()
+    code, lines, _ = run(capsys, "trace-log", pipe)
+    writer.join()
+    assert (code, lines[0]) == (0, f"{pipe}: 1000 lines, 1000 writes, 0 other lines ignored, 0 malformed")
 
 
 @pytest.mark.parametrize("lines", [(), ("nothing", "to see")])

@@ -53,6 +53,8 @@ MAKERS: dict[str, Callable[[], Any]] = {
 }
 NO_INDEX = (-2.0, 2.0, 1e300, math.inf, math.nan)
 """Indices of nothing in a world of two cells and two objects."""
+NO_ID = (-1.0, -float(CELL), 2.0**32, math.inf, math.nan)
+"""Numbers that are no cell's id, in any world."""
 STRANGE = [
     *((name, "begin_cell", value) for name in MAKERS for value in NO_INDEX),
     *((name, "num_sphere", value) for name in MAKERS for value in (-1.0, 3.0, math.nan)),
@@ -74,6 +76,19 @@ def test_a_strange_row_is_named_and_the_others_are_answered(name: str, field: st
     assert out[[0, 2]].tobytes() == expected[[0, 2]].tobytes()
 
 
+@pytest.mark.parametrize("name", MAKERS)
+@pytest.mark.parametrize("field", ["start", "end"])
+@pytest.mark.parametrize("value", NO_ID)
+def test_a_row_that_is_nowhere_is_named(name: str, field: str, value: float) -> None:
+    """A position's cell id may be that of no cell in the world, but it is one."""
+    rows, ask = MAKERS[name](), getattr(engine, name)
+    rows[field][1, 0] = value
+    with pytest.raises(QueryError, match="row 1: it names a cell or an object"):
+        ask(WORLD, rows)
+    rows[field][1, 0] = CELL + 7
+    ask(WORLD, rows)
+
+
 @pytest.mark.parametrize("kind", [0.0, 1.0, 2.0, 3.0, 4.0])
 @pytest.mark.parametrize("value", NO_INDEX)
 def test_strange_objects_of_every_kind_of_call(kind: float, value: float) -> None:
@@ -88,6 +103,7 @@ def test_strange_objects_of_every_kind_of_call(kind: float, value: float) -> Non
     ("field", "value"),
     [
         *(("cell", value) for value in NO_INDEX),
+        *(("cell_id", value) for value in NO_ID),
         *(("num_sphere", value) for value in (-1.0, 3.0, math.nan)),
         *(("num_records", value) for value in (-1.0, 257.0, math.nan)),
     ],
