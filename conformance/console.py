@@ -11,6 +11,8 @@ from typing import TYPE_CHECKING, Final, NoReturn, Self
 
 from rich.console import Console
 
+from conformance.files import UNWRITABLE
+
 if TYPE_CHECKING:
     from types import TracebackType
 
@@ -84,10 +86,11 @@ def print_document(text: str) -> None:
     """Print what is for a file or another program: in UTF-8 with line feeds, on any system.
 
     Behind ``>`` Windows would write it in the console's old encoding, in which no reader here expects it.
+    What is no character, as a byte of a file's name that is not UTF-8, is written as JSON escapes it.
     """
     reconfigure = getattr(sys.stdout, "reconfigure", None)
     if reconfigure is not None and not sys.stdout.isatty():
-        reconfigure(encoding="utf-8", newline="\n")
+        reconfigure(encoding="utf-8", newline="\n", errors=UNWRITABLE)
     sys.stdout.write(text)
 
 

@@ -6,11 +6,18 @@ import os
 import tempfile
 from contextlib import suppress
 from pathlib import Path
+from typing import Final
+
+UNWRITABLE: Final = "backslashreplace"
+"""What becomes of characters that UTF-8 lacks."""
 
 
 def write_text(path: Path, text: str) -> None:
-    """Write a text file, in UTF-8 with line feeds, as `write_bytes` does."""
-    write_bytes(path, text.encode())
+    """Write a text file, in UTF-8 with line feeds, as `write_bytes` does.
+
+    What is no character, as a byte of a file's name that is not UTF-8, is written as JSON escapes it.
+    """
+    write_bytes(path, text.encode("utf-8", UNWRITABLE))
 
 
 def write_bytes(path: Path, content: bytes) -> None:

@@ -127,6 +127,12 @@ def test_a_reader_that_goes_away_is_no_failure(options: Sequence[str]) -> None:
     assert (process.returncode, said) == (exit_codes.CANNOT_WRITE, b"")
 
 
+def test_a_file_may_name_any_other(tmp_path: Path) -> None:
+    """A name that is not UTF-8 is no reason to lose the rest."""
+    write_text(tmp_path / "a.json", '"b\udcff.yaml"')
+    assert (tmp_path / "a.json").read_bytes() == b'"b\\udcff.yaml"'
+
+
 def test_a_file_is_written_whole(tmp_path: Path) -> None:
     """Its folder is made; lines end in line feeds; nothing else is left."""
     path = tmp_path / "new" / "file.json"

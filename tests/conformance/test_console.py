@@ -90,6 +90,15 @@ def test_documents_are_for_files(monkeypatch: pytest.MonkeyPatch) -> None:
     assert stream.buffer.getvalue() == b"\xb0" + "SD-1…SD-12 → d\n".encode()  # type: ignore[attr-defined]
 
 
+def test_a_document_may_name_any_file(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Also one whose name is not UTF-8: as JSON would write it, wherever the document goes."""
+    stream = io.TextIOWrapper(io.BytesIO(), encoding="utf-8")
+    monkeypatch.setattr(sys, "stdout", stream)
+    print_document('{"file": "a\udcff.yaml"}')
+    stream.flush()
+    assert stream.buffer.getvalue() == b'{"file": "a\\udcff.yaml"}'  # type: ignore[attr-defined]
+
+
 def test_documents_on_a_terminal(monkeypatch: pytest.MonkeyPatch) -> None:
     """There they are text as any other."""
     stream = io.TextIOWrapper(io.BytesIO(), encoding="ascii", errors="replace")
