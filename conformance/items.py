@@ -11,7 +11,7 @@ from conformance.candidates.registry import make_candidate
 from conformance.deviations.known import deviations_of, today
 from conformance.deviations.reckoning import reckon
 from conformance.loader import Vary, duplicate_id, load_file
-from conformance.plugin import CANDIDATES
+from conformance.plugin import CANDIDATES, has_cases
 from conformance.protocol.process import command_line
 from conformance.summary import PROPERTY
 from conformance.trace_excerpt import excerpt
@@ -196,12 +196,14 @@ class CaseItem(pytest.Item):
         return [*shown, f"  ... and {more} more lines"] if more > 0 else shown
 
     def rerun_command(self) -> str:
-        """Return the command that runs only this case; a file that is named needs no `--cases`."""
+        """Return the command that runs this case; what no name tells to be a file of cases is run whole."""
         parts = ["pytest", f"{_relative(self.path, self.config.invocation_params.dir)}::{self.name}"]
         for option in ("--candidate", "--deviations", "--poses", "--pose-seed", *_ASKING):
             value = self.config.getoption(option, None)
             if value is not None and value != "engine":
                 parts += [option, str(value)]
+        if not has_cases(self.path):
+            parts += ["--cases", str(self.path)]
         return command_line(parts)
 
 

@@ -38,7 +38,7 @@ __all__ = [
 BUILT_IN_CASES: Final = Path(__file__).parent / "cases"
 """Folder of the cases that ship with the package."""
 CASE_SUFFIXES: Final = (".yaml", ".yml")
-_NOT_ENTERED: Final = (*(".*", "*.egg", "_darcs", "build", "CVS", "dist", "node_modules", "venv", "{arch}"),)
+_NOT_ENTERED: Final = ".*", "*.egg", "_darcs", "build", "CVS", "dist", "node_modules", "venv", "{arch}"
 """Names of folders that pytest does not enter, unless it is told to (`norecursedirs`),"""
 _MARK_OF_ENVIRONMENT: Final = "pyvenv.cfg"
 """and the file of the others."""
@@ -67,7 +67,7 @@ def load_paths(paths: Sequence[Path] = (), vary: Vary = AS_WRITTEN) -> Loaded:
     """
     loaded: dict[Path, Loaded] = {}
     for path in paths or (BUILT_IN_CASES,):
-        files = {file.resolve(): file for file in case_files(path)}
+        files = _by_place(path)
         loaded |= {place: load_file(file, vary) for place, file in files.items() if place not in loaded}
         if not any(loaded[place].cases or loaded[place].problems for place in files):
             raise NoCasesError(f"no case in {path}")
@@ -91,18 +91,25 @@ def case_files(path: Path) -> list[Path]:
     """List the case files at or below a path, sorted; raises `NoCasesError` if there are none.
 
     Folders below it that pytest does not enter are left out by everybody: hidden ones, what builds leave
-    behind, and virtual environments. A file that links lead to as well is listed once.
+    behind, and virtual environments. A file that links lead to as well is listed once, where it comes first.
     """
+    return list(_by_place(path).values())
+
+
+def _by_place(path: Path) -> dict[Path, Path]:
+    """Return what `case_files` lists, by where links lead to."""
     path = installed(path)
     if path.is_file():
-        return [path]
+        return {path.resolve(): path}
     if not path.is_dir():
         raise NoCasesError(f"{path} does not exist")
     files = [file for file in _below(path) if file.suffix in CASE_SUFFIXES and file.is_file()]
     if not files:
         raise NoCasesError(f"no *.yaml file in {path}")
-    in_order = sorted(files, key=lambda file: file.relative_to(path).as_posix())
-    return list({file.resolve(): file for file in reversed(in_order)}.values())[::-1]
+    places: dict[Path, Path] = {}
+    for file in sorted(files, key=lambda file: file.relative_to(path).as_posix()):
+        places.setdefault(file.resolve(), file)
+    return places
 
 
 def _below(folder: Path) -> Iterator[Path]:

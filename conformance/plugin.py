@@ -156,11 +156,15 @@ def _case_files(folder: Path) -> Iterable[Path]:
 
 def _named_files(config: pytest.Config) -> list[Path]:
     """List the case files that the run asks for one by one, wherever they are."""
-    asked = {Path(arg.partition("::")[0]).resolve() for arg in config.args}
-    return sorted(path for path in asked if path.suffix in CASE_SUFFIXES and _has_cases(path))
+    return sorted(path for path in _asked(config) if path.suffix in CASE_SUFFIXES and has_cases(path))
 
 
-def _has_cases(path: Path) -> bool:
+def _asked(config: pytest.Config) -> set[Path]:
+    """Return the places that the run asks for: the files of single tests, too."""
+    return {Path(arg.partition("::")[0]).resolve() for arg in config.args}
+
+
+def has_cases(path: Path) -> bool:
     """Tell whether a file is meant to hold cases, whatever is wrong with them: not all YAML is ours."""
     try:
         return bool(_CASE_KEYS.search(path.read_bytes()))
@@ -173,7 +177,7 @@ def _case_folders(config: pytest.Config) -> list[str]:
     if config.args_source is not config.ArgsSource.ARGS:
         return []
     folders = [arg for arg in config.args if Path(arg).is_dir()]
-    return [arg for arg in folders if any(map(_has_cases, _case_files(Path(arg))))]
+    return [arg for arg in folders if any(map(has_cases, _case_files(Path(arg))))]
 
 
 def _check_candidate(config: pytest.Config) -> None:
@@ -218,8 +222,7 @@ def _covers(config: pytest.Config, place: Path) -> bool:
 
 def _asks_for_part(config: pytest.Config) -> bool:
     """Tell whether the run is asked for some of the suite's own cases: a folder, a file, or one case."""
-    asked = [Path(arg.partition("::")[0]).resolve() for arg in config.args]
-    return any(path.is_relative_to(BUILT_IN_CASES) for path in asked)
+    return any(path.is_relative_to(BUILT_IN_CASES) for path in _asked(config))
 
 
 def _found_folder(config: pytest.Config) -> Path:
@@ -251,11 +254,13 @@ def pytest_collect_file(file_path: Path, parent: pytest.Collector) -> pytest.Col
 @pytest.hookimpl(tryfirst=True)
 def pytest_ignore_collect(collection_path: Path, config: pytest.Config) -> bool | None:
     """Let a run enter the folders that it is given, and that of found cases, which is hidden."""
-    if any(folder.is_relative_to(collection_path.resolve()) for folder in config.stash[_GIVEN]):
-        return False
+    wanted = config.stash[_GIVEN]
     if collection_path.name.startswith(".") and config.stash[_EXPECTS_CASES]:
-        return False if _found_folder(config).is_relative_to(collection_path.resolve()) else None
-    return None
+        wanted = [*wanted, _found_folder(config)]
+    if not wanted:
+        return None
+    place = collection_path.resolve()
+    return False if any(folder.is_relative_to(place) for folder in wanted) else None
 
 
 @pytest.hookimpl(tryfirst=True)

@@ -179,7 +179,7 @@ def given_body(world: World, body: Any) -> Rows:
     if getattr(body, "dtype", None) != BODY_DTYPE or body.shape not in {(), (1,)}:
         raise QueryError("body", f"{told(body)} where a Body, or a record of BODY_DTYPE, is needed")
     rows = np.empty(1, dtype=BODY_DTYPE)
-    rows[0] = body if body.shape == () else body[0]
+    rows[:] = body
     return rows
 
 

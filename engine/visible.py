@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Final
 
 from engine import layout as at
 from engine.checks import whole
@@ -16,6 +16,9 @@ if TYPE_CHECKING:
     from collections.abc import Iterator, Sequence
 
     from engine.world import World
+
+
+_CHECK_CELL: Final = whole()
 
 
 def find_visible_child_cell(
@@ -48,7 +51,7 @@ def find_visible_child_cell(
     retail: CEnvCell::find_visible_child_cell 0x0052DC50, 09 7
     """
     CHECK_WORLD(world, "world", QueryError)
-    whole()(cell, "cell", QueryError)
+    _CHECK_CELL(cell, "cell", QueryError)
     index = world.cell_index(cell)
     if index == at.NO_CELL or cell & 0xFFFF < FIRST_INDOOR:
         raise QueryError("cell", f"{cell:#010x} is not an environment cell of the world")

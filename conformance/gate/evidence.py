@@ -37,13 +37,8 @@ class EvidenceError(Exception):
     """A folder that is no evidence of an earlier gate."""
 
 
-def write_evidence(run: GateRun, parties: Parties) -> list[Path]:
-    """Write the folder.
-
-    Returns
-    -------
-    list of Path
-        What was written; `SUMS`, the last, is over all of the others and over kept queries.
+def write_evidence(run: GateRun, parties: Parties) -> None:
+    """Write the folder; `SUMS`, the last, is over all of the others and over kept queries.
 
     Raises
     ------
@@ -67,7 +62,6 @@ def write_evidence(run: GateRun, parties: Parties) -> list[Path]:
     written += _kept_queries(folder, run)
     sums = [f"{hashlib.sha256(path.read_bytes()).hexdigest()}  {_name(path, folder)}" for path in written]
     write_text(folder / SUMS, "\n".join(sums) + "\n")
-    return [*written, folder / SUMS]
 
 
 def summary_record(run: GateRun, parties: Parties) -> dict[str, Any]:

@@ -53,7 +53,8 @@ def _outcome(
     if wrong:
         return Status.FAILED, wrong
     if errors:
-        return Status.BROKEN, [errors[0], *([f"and {len(errors) - 1} others"] if len(errors) > 1 else [])]
+        others = [f"and {len(errors) - 1} others"] if len(errors) > 1 else []
+        return Status.BROKEN, [errors[0], *others]
     if has_answered:
         return Status.PASSED, skips
     return Status.SKIPPED, skips or findings.notes or ["no reading"]

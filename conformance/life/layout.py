@@ -87,7 +87,7 @@ def _in_order(document: Document) -> list[str]:
     lines = list(document.lines)
     keys_of = _keys(document)
     for below, end in _cases(document):
-        keys = keys_of.get(below, [])
+        keys = sorted(keys_of.get(below, []))
         if keys and len({line for line, _ in keys}) == len(keys):
             first = keys[0][0] - 1
             lines[first:end] = _sorted(lines[first:end], [(line - first, key) for line, key in keys])
@@ -111,11 +111,11 @@ def _cases(document: Document) -> Iterator[tuple[DocPath, int]]:
 
 
 def _keys(document: Document) -> dict[DocPath, list[tuple[int, str]]]:
-    """List the keys of each mapping with their lines, in the order of the file."""
+    """List the keys of each mapping with their lines."""
     keys: dict[DocPath, list[tuple[int, str]]] = {}
     for path, place in document.keys.items():
         keys.setdefault(path[:-1], []).append((place[0], str(path[-1])))
-    return {below: sorted(found) for below, found in keys.items()}
+    return keys
 
 
 def _sorted(lines: list[str], keys: list[tuple[int, str]]) -> list[str]:

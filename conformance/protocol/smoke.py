@@ -308,7 +308,7 @@ class _Examination:
 
 
 def _alike(one: Outcome, other: Outcome) -> bool:
-    """Tell whether two answers are the same on every bit; a NaN is, as itself it is not equal."""
+    """Tell whether two answers are the same on every bit; by `==` no NaN would be."""
     return repr(one) == repr(other)
 
 

@@ -75,7 +75,7 @@ def _numbers(value: object) -> list[float]:
 @pytest.mark.parametrize("text", [r'"\ud83d"', r'{"\uDE00": 1}', r'[{"a": ["x\ude00\ud83d"]}]'])
 def test_half_a_character_is_refused(text: str) -> None:
     """Wherever it stands: Python reads it, and cannot write it into any file."""
-    with pytest.raises(LooseJsonError, match=r"^found half a character, U\+D[8E]00|U\+D83D, expected text$"):
+    with pytest.raises(LooseJsonError, match=r"^found half a character, U\+(D83D|DE00), expected text$"):
         read_json(text)
 
 

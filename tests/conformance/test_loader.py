@@ -193,12 +193,14 @@ def test_folders_that_pytest_does_not_enter_are_left_out(tmp_path: Path) -> None
 
 @pytest.mark.skipif(sys.platform == "win32", reason="Windows asks for a right to make links")
 def test_a_file_and_a_link_to_it_are_one(tmp_path: Path) -> None:
-    """Its cases are not there twice."""
+    """Its cases are not there twice, and it stands where its first name does."""
     write(tmp_path, "b.yaml", POINT)
     (tmp_path / "a.yaml").symlink_to(tmp_path / "b.yaml")
     (tmp_path / "c.yaml").symlink_to(tmp_path / "b.yaml")
     assert case_files(tmp_path) == [tmp_path / "a.yaml"]
     assert load_paths([tmp_path]).problems == ()
+    write(tmp_path, "aa.yaml", "")
+    assert case_files(tmp_path) == [tmp_path / "a.yaml", tmp_path / "aa.yaml"]
 
 
 def test_paths_may_overlap(tmp_path: Path) -> None:

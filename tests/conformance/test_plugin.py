@@ -441,6 +441,17 @@ def test_options_change_the_poses(run: pytest.Pytester) -> None:
     result.stdout.fnmatch_lines(["*--candidate bug:cell-origin --poses 3 --pose-seed 7"])
 
 
+def test_a_file_that_no_name_tells_to_be_one_of_cases_is_run_again(run: pytest.Pytester) -> None:
+    """All in braces, it is known by `--cases` alone, which the command says."""
+    case = "{id: one, title: x, why: x, retail: [Frame::cache §4.2], "
+    case += "query: {op: frame_cache, rotation: [1, 0, 0, 0]}, expect: {m: [2, 0, 0, 0, 1, 0, 0, 0, 1]}}\n"
+    case_file(run, "mine/a.yaml", case)
+    result = run.runpytest_inprocess("--cases", "mine", "--candidate", "oracle")
+    (line,) = [line for line in result.outlines if "rerun: pytest " in line]
+    again = run.runpytest_inprocess(*line.partition("rerun: pytest ")[2].split())
+    assert again.parseoutcomes()["failed"] == 1
+
+
 def test_a_case_can_be_selected(run: pytest.Pytester) -> None:
     """By id, by tag, by op, by marker."""
     for selection in (["-k", "origin-step-down-short"], ["-k", "cell-pose"], ["-m", "conformance"]):
