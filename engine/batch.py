@@ -9,6 +9,7 @@ import numpy as np
 from engine import layout as at
 from engine.answering import answer
 from engine.body_layout import MAX_RECORDS, STATUS_CROWDED
+from engine.constants import MAX_STEPS
 from engine.errors import CrowdedError, QueryError, RecursionBoundError, UndeterminedError
 from engine.given import room
 from engine.kernels import program
@@ -25,6 +26,7 @@ if TYPE_CHECKING:
 
 
 _STRANGE: Final = "it names a cell or an object that this world doesn't have, or too many spheres or records"
+_ENDLESS: Final = f"more than {MAX_STEPS} steps, or a first sphere too small to be put down"
 
 
 def resolve(world: World, move: Move, *, plan: Plan = FULL_PLAN) -> Any:
@@ -73,7 +75,7 @@ def resolve_many(
     world : World
     moves : sequence of Move, or records of `engine.layout.QUERY_DTYPE`
         Rows are made by `engine.query.move_rows`; of their numbers only those that name cells, objects and
-        spheres are looked at again.
+        spheres are looked at again, and how many steps they ask for.
     threads : int
         How many share them; the results are the same for any number.
     plan : Plan
@@ -221,6 +223,8 @@ def check_status(status: Any, results: Rows | None = None) -> None:
             raise CrowdedError(f"body {index} has touched more than {MAX_RECORDS} objects within a second")
         if status[index] == at.STATUS_STRANGE:
             raise QueryError(f"row {index}", _STRANGE)
+        if status[index] == at.STATUS_ENDLESS:
+            raise QueryError(f"row {index}", _ENDLESS)
         if status[index] != at.STATUS_UNDETERMINED:
             raise RecursionBoundError(f"query {index}: status {int(status[index])}")
     if len(failed):

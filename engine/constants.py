@@ -19,6 +19,11 @@ EPS5: Final = EPS * 5.0
 """Tolerance of a valid quaternion's squared length (NM-8)."""
 EPS2: Final = EPS * EPS
 """Smallest squared offset of a sub-step, square metres; exact product (04, 0.2)."""
+MAX_STEPS: Final = 200_000
+"""Steps of a move, where retail has no bound: a human (radius 0.48 m) crosses the whole map, 49 km, by its
+diagonal in 145,000."""
+SPECK: Final = 9.999999747378752e-05
+"""Smallest radius of what is put down, metres, a float32: it has some 1e9 positions to try."""
 CELL_SLACK: Final = 0.009999999776482582
 """Enlargement of a sphere tested against a cell, float32 0x3C23D70A; metres (NM-8)."""
 Z_LANDING: Final = 0.08715569972991943

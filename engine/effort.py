@@ -1,28 +1,24 @@
 """How much work a mover may ask for: retail has no bound, so that a speck would walk for years.
 
 A move goes in steps of the first sphere's radius (05, 2), and a place is looked for in rings of positions
-that are a radius apart (05, 8).
+that are a radius apart (05, 8). What is asked for in words is held to the bounds here, with numbers in the
+error; rows that are given as they are, by the kernels (`engine.layout.STATUS_ENDLESS`).
 """
 
 from __future__ import annotations
 
 import math
-from typing import TYPE_CHECKING, Final
+from typing import TYPE_CHECKING
 
 import numpy as np
 
-from engine.constants import BLOCK_EDGE, MAX_VELOCITY
+from engine.constants import BLOCK_EDGE, MAX_STEPS, MAX_VELOCITY, SPECK
 from engine.errors import QueryError
 from engine.layout import RADIUS
 
 if TYPE_CHECKING:
     from engine.kernels.types import Array
     from engine.query import Rows
-
-MAX_STEPS: Final = 200_000
-"""Steps of a move; a human (radius 0.48 m) crosses the whole map, 49 km, by its diagonal in 145,000."""
-SPECK: Final = 9.999999747378752e-05
-"""Smallest radius of what is put down, metres, a float32: it has some 1e9 positions to try."""
 
 
 def check_way(start: Array | None, end: Array, radius: float, where: str) -> None:

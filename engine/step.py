@@ -141,7 +141,8 @@ def update_many(
 def _ready(rows: Rows) -> Array:
     """Return rows as kernels see them, if they can tick."""
     numbers = body_numbers(rows)
-    ethereal = rows["transient_state"].astype(np.int64) & CHECK_ETHEREAL_TS
+    with np.errstate(invalid="ignore"):  # A row that is changed holds any number.
+        ethereal = rows["transient_state"].astype(np.int64) & CHECK_ETHEREAL_TS
     for index in np.flatnonzero((ethereal != 0) & (rows["has_parent"] == 0)):
         raise QueryError(f"body {index}", "becoming solid again needs registration in cells (UO-2)")
     return numbers

@@ -17,6 +17,8 @@ import math
 from array import array
 from typing import Final
 
+from oracle.errors import UndeterminedError
+
 _slot: Final = array("f", (0.0,))
 
 
@@ -63,12 +65,28 @@ def divide(a: float, b: float) -> float:
 
 
 def floor(x: float) -> int:
-    """Largest whole number not above `x`; other number types answer with ``__floor__``."""
+    """Largest whole number not above `x`; other number types answer with ``__floor__``.
+
+    Raises
+    ------
+    UndeterminedError
+        If there is none: what retail's conversion makes of infinity and NaN is not specified (NM-9).
+    """
+    if x.__class__ is float and not math.isfinite(x):
+        raise UndeterminedError(f"{x} as a whole number (NM-9)")
     return math.floor(x)
 
 
 def ceil(x: float) -> int:
-    """Smallest whole number not below `x`; other number types answer with ``__ceil__``."""
+    """Smallest whole number not below `x`; other number types answer with ``__ceil__``.
+
+    Raises
+    ------
+    UndeterminedError
+        If there is none, as `floor` does.
+    """
+    if x.__class__ is float and not math.isfinite(x):
+        raise UndeterminedError(f"{x} as a whole number (NM-9)")
     return math.ceil(x)
 
 

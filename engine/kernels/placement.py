@@ -15,6 +15,7 @@ from engine.constants import (
     RING_RADIUS,
     SMALL_RADIUS,
     SMALL_RING_LENGTH,
+    SPECK,
     TRANSITION_ATTEMPTS,
     TRANSITION_INSERT,
     Z_LANDING,
@@ -44,6 +45,8 @@ from engine.layout import (
     RADIUS,
     SCRATCH_FRAME,
     SLIDING_VALID,
+    STATUS,
+    STATUS_ENDLESS,
     STEP_DOWN_HEIGHT,
     WALKABLE,
     WALKABLE_ALLOWANCE,
@@ -113,6 +116,9 @@ def _find_placement_pos(wf: Array, wi: Ints, s: Array) -> bool:
     if s[PLACEMENT_ALLOWS_SLIDING] == 0.0:
         return False
     r = s[LOCAL_SPHERE + RADIUS]
+    if r < SPECK:
+        s[STATUS] = STATUS_ENDLESS
+        return False
     small = r < SMALL_RADIUS
     ring = SMALL_RING_LENGTH if small else RING_LENGTH
     if not small and r < RING_RADIUS:

@@ -10,6 +10,7 @@ from engine.constants import (
     EPS2,
     FREE_ROTATE,
     IS_VIEWER,
+    MAX_STEPS,
     OK,
     PATH_CLIPPED,
     TRANSITION_ATTEMPTS,
@@ -46,6 +47,8 @@ from engine.layout import (
     QUATERNION,
     RADIUS,
     SLIDING_VALID,
+    STATUS,
+    STATUS_ENDLESS,
 )
 
 if TYPE_CHECKING:
@@ -124,6 +127,9 @@ def _find_transitional_position(wf: Array, wi: Ints, s: Array) -> bool:
     viewer, free = state & IS_VIEWER != 0, state & FREE_ROTATE != 0
     ox, oy, oz = position_get_offset(s, BEGIN_POS, s, END_POS)
     sx, sy, sz, steps = calc_num_steps(s[LOCAL_SPHERE + RADIUS], viewer, ox, oy, oz)
+    if steps > MAX_STEPS + 1.0:  # One more than what is asked for in words: a viewer has a last step of none.
+        s[STATUS] = STATUS_ENDLESS
+        return False
     if free:
         _take_end_rotation(s)
     set_check_pos(s, CURR_POS, s[CURR_CELL])

@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
+import math
 from typing import TYPE_CHECKING, Any
 
 import pytest
 from shipped_vectors import VECTORS, records
 
+from conformance.candidates.engine_candidate import EngineCandidate
 from conformance.candidates.oracle_candidate import OracleCandidate
 from conformance.candidates.oracle_ops.body import Body, NamedCell
 from conformance.candidates.oracle_ops.body_walk import Recorder, UntrackedBody
@@ -163,3 +165,23 @@ def test_a_body_s_defaults_are_those_of_a_new_object() -> None:
     assert (body.state, body.transient_state, body.m_position.objcell_id) == (0x400C08, 0, 0)
     assert (body.friction, body.elasticity) == (f32(0.95), f32(0.05))
     assert (body.weenie_obj, body.movement_manager) == (None, None)
+
+
+def test_a_body_outside_of_the_world_does_not_act() -> None:
+    """It is active, and has no cell: nothing happens, in the engine either (06 UO-1)."""
+    query = first("tick.jsonl", world=True, ticks=True).query
+    position = {**query.inputs["body"]["position"], "cell": 0x7777_0100}
+    body = {**query.inputs["body"], "position": position, "transient_state": ACTIVE_TS}
+    elsewhere = Query(query.op, {**query.inputs, "body": body, "ticks": [{"q": EIGHTH}]}, query.geometries)
+    for candidate in (OracleCandidate(), EngineCandidate()):
+        outcome = candidate.answer(elsewhere)
+        assert isinstance(outcome, Result), outcome
+        assert [step["r"] for step in outcome.fields["ticks"]] == ["inactive"]
+
+
+def test_a_place_that_is_no_number_is_skipped() -> None:
+    """No document says which land cell lies under it (10 2.7, NM-9)."""
+    where = {"cell": 0xA9B4_0001, "point": [math.nan, 0.0, 0.0]}
+    outcome = OracleCandidate().answer(Query("landdefs_get_outside_lcoord", where, {}))
+    assert isinstance(outcome, Skipped), outcome
+    assert "nan as a whole number" in outcome.reason

@@ -6,8 +6,22 @@ import numpy as np
 import pytest
 from engine_scenes import CELL, at, floor_and_wall, world_of
 
-from engine import Body, Move, Mover, QueryError, body_rows, step_many, update_many
-from engine.effort import MAX_STEPS, SPECK, check_way
+from engine import (
+    Body,
+    Cell,
+    Move,
+    Mover,
+    Obstacle,
+    QueryError,
+    World,
+    body_rows,
+    layout,
+    resolve_many,
+    step_many,
+    update_many,
+)
+from engine.constants import IS_VIEWER, MAX_STEPS, SPECK
+from engine.effort import check_way
 from engine.query import move_rows
 
 WORLD = world_of(floor_and_wall())
@@ -56,3 +70,56 @@ def test_a_speck_does_not_tick() -> None:
     with pytest.raises(QueryError, match="body 1: 10 m with a sphere"):
         update_many(WORLD, rows, 1.0)
     step_many(WORLD, rows[:1], 0.1, 1)
+
+
+@pytest.mark.parametrize(("field", "place"), [("start", -1), ("end", -1), ("end", -3)])
+@pytest.mark.parametrize("far", [1e17, -1e6, 2.0**31])
+def test_a_row_that_asks_for_a_long_way_is_named(field: str, place: int, far: float) -> None:
+    """Rows may be changed after they have been made; the others are answered."""
+    rows = move_rows(WORLD, [Move(mover(0.5), at(1.0, 0.0, 1.0), CELL, start=at(0.0, 0.0, 1.0))] * 3)
+    expected = resolve_many(WORLD, rows)
+    rows[field][1, place] = far
+    out = np.zeros(3, dtype=layout.RESULT_DTYPE)
+    with pytest.raises(QueryError, match="row 1: more than 200000 steps"):
+        resolve_many(WORLD, rows, out=out)
+    assert out["status"].tolist() == [layout.STATUS_OK, layout.STATUS_ENDLESS, layout.STATUS_OK]
+    assert out[[0, 2]].tobytes() == expected[[0, 2]].tobytes()
+
+
+@pytest.mark.parametrize("viewer", [False, True])
+def test_the_longest_row_is_walked(viewer: bool) -> None:
+    """A row just as long as a move may be is no error, though a viewer has one step more."""
+    begin, end = at(-0.25, 0.0, 1.0), at(MAX_STEPS * RADIUS - 0.25, 0.0, 1.0)
+    who = Mover([(0.0, 0.0, 0.0, RADIUS)], state=IS_VIEWER if viewer else 0)
+    rows = move_rows(WORLD, [Move(who, end, CELL, start=begin)])
+    assert resolve_many(WORLD, rows)["status"].tolist() == [layout.STATUS_OK]
+    rows["end"][0, -3] += 3 * RADIUS
+    with pytest.raises(QueryError, match="row 0: more than 200000 steps"):
+        resolve_many(WORLD, rows)
+
+
+def test_a_row_that_puts_down_a_speck_is_named() -> None:
+    """Where it fits at once no other place is tried; inside a boulder there would be no end."""
+    boulder = Obstacle(at(0.0, 0.0, 0.0), spheres=[(0.0, 0.0, 0.0, 1.0)])
+    world = World([Cell(CELL, at(0.0, 0.0, 0.0), floor_and_wall(), objects=[boulder])])
+    rows = move_rows(world, [Move(mover(0.5), at(0.0, 0.0, z), CELL) for z in (0.5, 3.0)])
+    rows["spheres"][:, 0, -1] = SPECK / 2
+    with pytest.raises(QueryError, match=r"row 0: .* too small to be put down"):
+        resolve_many(world, rows[:1])
+    assert resolve_many(world, rows[1:])["result"].tolist() == [1.0]
+
+
+def test_a_body_s_row_that_asks_for_a_long_way_is_named() -> None:
+    """Velocities are held to a bound, accelerations and places are not; the other body ticks."""
+    rows = body_rows(WORLD, [Body(at(0.0, 0.0, 1.0), [(0.0, 0.0, 0.0, 0.5)], transient_state=0x80)] * 2)
+    rows["acceleration"][1, 0] = 1e17
+    with pytest.raises(QueryError, match="row 1: more than 200000 steps"):
+        step_many(WORLD, rows, 0.1, 2)
+    assert rows["status"].tolist() == [layout.STATUS_OK, layout.STATUS_ENDLESS]
+
+
+def test_a_body_whose_bits_are_no_number_is_no_warning() -> None:
+    """A row may hold any number."""
+    rows = body_rows(WORLD, [Body(at(0.0, 0.0, 1.0), [(0.0, 0.0, 0.0, 0.5)])])
+    rows["transient_state"] = np.nan
+    step_many(WORLD, rows, 0.1, 1)

@@ -9,7 +9,8 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from oracle import arithmetic
-from oracle.arithmetic import acos, asin, atan2, cos, divide, f32, fmod, is_nan, power, sin, sqrt
+from oracle.arithmetic import acos, asin, atan2, ceil, cos, divide, f32, floor, fmod, is_nan, power, sin, sqrt
+from oracle.errors import UndeterminedError
 
 MIN_SUBNORMAL = 2.0**-149
 MAX_FINITE = (2.0 - 2.0**-23) * 2.0**127
@@ -131,3 +132,12 @@ def test_a_negative_number_has_only_whole_powers() -> None:
     assert power(-2.0, 3.0) == -8.0
     assert is_nan(power(-2.0, 0.5))
     assert (power(0.0, 0.5), power(0.0, 0.0)) == (0.0, 1.0)
+
+
+@pytest.mark.parametrize("x", [math.inf, -math.inf, math.nan])
+def test_what_is_no_number_has_no_whole_one(x: float) -> None:
+    """What retail makes of it is not known, and said so; a number however large has its own."""
+    for function in (floor, ceil):
+        with pytest.raises(UndeterminedError, match=f"not known: {x} as a whole number"):
+            function(x)
+    assert (floor(-0.5), ceil(-0.5), floor(2.0**80)) == (-1, 0, 2**80)

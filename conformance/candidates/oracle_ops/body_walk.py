@@ -74,11 +74,11 @@ class Recorder:
             body.set_local_velocity(vector(tick["set_local_velocity"]), 0)
         quantum = f32(tick["q"])
         body.world.clock.curr_time += quantum
-        active = body.transient_state & ACTIVE_TS
+        acts = body.transient_state & ACTIVE_TS and body.cell is not None  # UO-1
         kills = body.kill_velocity_calls
         body.forget()
         body.update_object_internal(quantum)
-        fields = {"r": _outcome(body) if active else "inactive", **self._always()}
+        fields = {"r": _outcome(body) if acts else "inactive", **self._always()}
         if body.begun is not None:
             fields["t"] = "".join(body.begun.trace or ())
         if fields["r"] == "moved":
