@@ -63,9 +63,7 @@ def is_loaded(cell: int, scene: SceneModel) -> bool:
     """Tell whether a scene has a cell, interior or of its land."""
     if is_interior(cell):
         return any(one.id == cell for one in scene.cells or ())
-    detailed = (terrain for terrain in scene.terrain if terrain.side_cell_count == SIDE_CELLS)
-    blocks = [block for terrain in detailed for block in terrain.blocks]
-    return (cell >> 16 in blocks and cell & 0xFFFF in LAND_CELLS) or any(
+    return (cell >> 16 in _detailed_blocks(scene) and cell & 0xFFFF in LAND_CELLS) or any(
         one.id == cell for one in scene.cells or ()
     )
 
@@ -91,5 +89,11 @@ def _named_cells(query: object, scene: SceneModel) -> Iterator[tuple[DocPath, in
 def known_cells(scene: SceneModel) -> str:
     """Name the cells of a scene for a message."""
     cells = [f"0x{cell.id:08X}" for cell in scene.cells or ()]
-    blocks = [f"0x{block:04X}0001 to 0040" for terrain in scene.terrain for block in terrain.blocks]
+    blocks = [f"0x{block:04X}0001 to 0040" for block in _detailed_blocks(scene)]
     return ", ".join([*cells, *blocks])
+
+
+def _detailed_blocks(scene: SceneModel) -> list[int]:
+    """List the landblocks whose land has all of its cells."""
+    detailed = (terrain for terrain in scene.terrain if terrain.side_cell_count == SIDE_CELLS)
+    return [block for terrain in detailed for block in terrain.blocks]

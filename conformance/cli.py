@@ -90,6 +90,7 @@ def main(argv: Sequence[str] | None = None) -> int:
         args.refuse(f"unrecognized arguments: {' '.join(unknown)}")
     try:
         code: int = _COMMANDS[args.command].run(args)
+        sys.stdout.flush()
     except UsageError as error:
         return _give_up(args.command, str(error), exit_codes.USAGE)
     except KeyboardInterrupt:

@@ -88,10 +88,15 @@ def print_document(text: str) -> None:
     Behind ``>`` Windows would write it in the console's old encoding, in which no reader here expects it.
     What is no character, as a byte of a file's name that is not UTF-8, is written as JSON escapes it.
     """
-    reconfigure = getattr(sys.stdout, "reconfigure", None)
-    if reconfigure is not None and not sys.stdout.isatty():
-        reconfigure(encoding="utf-8", newline="\n", errors=UNWRITABLE)
-    sys.stdout.write(text)
+    stream = getattr(sys.stdout, "buffer", None)
+    if stream is None or sys.stdout.isatty():
+        sys.stdout.write(text)
+        return
+    sys.stdout.flush()
+    rest = memoryview(text.encode("utf-8", UNWRITABLE))
+    while rest:  # `python -u` has no buffer there, and such a stream may take less than it is given.
+        rest = rest[stream.write(rest) :]
+    stream.flush()
 
 
 def tolerate_unprintable() -> None:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import errno
 import os
 import tempfile
 from contextlib import suppress
@@ -18,6 +19,26 @@ def write_text(path: Path, text: str) -> None:
     What is no character, as a byte of a file's name that is not UTF-8, is written as JSON escapes it.
     """
     write_bytes(path, text.encode("utf-8", UNWRITABLE))
+
+
+def check_writable(path: Path) -> None:
+    """Find out whether `write_bytes` will be able to write a file, before the work that is for it is done.
+
+    Its folder is made, and the file left as it is.
+
+    Raises
+    ------
+    OSError
+        It cannot be written.
+    """
+    path.parent.mkdir(parents=True, exist_ok=True)
+    if path.is_dir():
+        raise IsADirectoryError(errno.EISDIR, os.strerror(errno.EISDIR), str(path))
+    if path.is_file() or not path.exists():
+        try:
+            tempfile.TemporaryFile(dir=path.resolve().parent).close()
+        except OSError as error:
+            raise OSError(error.errno, error.strerror, str(path)) from error
 
 
 def write_bytes(path: Path, content: bytes) -> None:

@@ -17,3 +17,13 @@ def installed(path: Path) -> Path:
         return path
     inside = _PACKAGE.joinpath(*path.parts[1:])
     return inside if inside.exists() else path
+
+
+def meant(path: Path) -> list[Path]:
+    """Return what an argument means: what is `installed`, or the files of a pattern.
+
+    Shells of Windows leave ``my-cases/*.yaml`` to the program. A pattern without files is returned as it is.
+    """
+    if "*" not in path.name or path.exists():
+        return [installed(path)]
+    return sorted(installed(path.parent).glob(path.name)) or [path]

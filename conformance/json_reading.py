@@ -54,8 +54,7 @@ def read_json(text: str, read_float: Callable[[str], float] = float) -> Any:
     """
     read_whole = _keep_sign if _MINUS_ZERO.search(text) else int  # `int` itself is read without a call
     value = _decoder(read_float, read_whole).decode(text)
-    if _SURROGATE.search(text):
-        _refuse_halves(value)
+    refuse_halves(text, value)
     return value
 
 
@@ -79,7 +78,10 @@ def _decoder(read_float: Callable[[str], float], read_whole: Callable[[str], flo
     )
 
 
-def _refuse_halves(value: Any) -> None:
+def refuse_halves(text: str, value: Any) -> None:
+    """Raise `LooseJsonError` if what was made of a text has half of a surrogate pair."""
+    if not _SURROGATE.search(text):
+        return
     try:
         json.dumps(value, ensure_ascii=False, default=str).encode()
     except UnicodeEncodeError as error:

@@ -2,11 +2,12 @@
 
 from __future__ import annotations
 
+import re
 from typing import TYPE_CHECKING
 
 from conformance.deviations.files import FOLDER, DeviationError, problems_among, read_deviations
 from conformance.loader import load_paths
-from conformance.source import Problem
+from conformance.source import Location, Problem
 from conformance.yaml_source import YamlError
 
 if TYPE_CHECKING:
@@ -77,5 +78,14 @@ def style_problems(case: Case) -> Iterator[Problem]:
 
 
 def _problem(case: Case, path: str, found: str, expected: str, hint: str = "") -> Problem:
-    line = case.source.splitlines()[case.location.line - case.first_line]
-    return Problem(case.location, path, found, expected, hint, line, case.id)
+    location = _place_of(case, path)
+    line = case.source.splitlines()[location.line - case.first_line]
+    return Problem(location, path, found, expected, hint, line, case.id)
+
+
+def _place_of(case: Case, key: str) -> Location:
+    """Return where a key of a case stands, or the case where it has none, or has it beside others."""
+    for number, line in enumerate(case.source.splitlines(), start=case.first_line):
+        if found := re.match(rf"[\s-]*(?={key}\s*:)", line):
+            return Location(case.location.file, number, found.end() + 1)
+    return case.location

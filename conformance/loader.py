@@ -5,14 +5,13 @@ A mistake in one case does not lose the others; what cannot be read is a `Proble
 
 from __future__ import annotations
 
-import os
-from fnmatch import fnmatchcase
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Final
 
 from conformance.case import Case, Loaded, Vary
+from conformance.case_folders import yaml_files
 from conformance.case_maker import load_case
-from conformance.installed import installed
+from conformance.installed import meant
 from conformance.source import Fault, Location, Problem, describe
 from conformance.yaml_source import Document, YamlError, read_document
 
@@ -37,11 +36,6 @@ __all__ = [
 
 BUILT_IN_CASES: Final = Path(__file__).parent / "cases"
 """Folder of the cases that ship with the package."""
-CASE_SUFFIXES: Final = (".yaml", ".yml")
-_NOT_ENTERED: Final = ".*", "*.egg", "_darcs", "build", "CVS", "dist", "node_modules", "venv", "{arch}"
-"""Names of folders that pytest does not enter, unless it is told to (`norecursedirs`),"""
-_MARK_OF_ENVIRONMENT: Final = "pyvenv.cfg"
-"""and the file of the others."""
 AS_WRITTEN: Final = Vary()
 """Every case with its own `vary`."""
 
@@ -98,29 +92,25 @@ def case_files(path: Path) -> list[Path]:
 
 def _by_place(path: Path) -> dict[Path, Path]:
     """Return what `case_files` lists, by where links lead to."""
-    path = installed(path)
+    places: dict[Path, Path] = {}
+    for one in meant(path):
+        for place, file in _by_place_in(one).items():
+            places.setdefault(place, file)
+    return places
+
+
+def _by_place_in(path: Path) -> dict[Path, Path]:
     if path.is_file():
         return {path.resolve(): path}
     if not path.is_dir():
         raise NoCasesError(f"{path} does not exist")
-    files = [file for file in _below(path) if file.suffix in CASE_SUFFIXES and file.is_file()]
+    files = yaml_files(path)
     if not files:
         raise NoCasesError(f"no *.yaml file in {path}")
     places: dict[Path, Path] = {}
-    for file in sorted(files, key=lambda file: file.relative_to(path).as_posix()):
+    for file in files:
         places.setdefault(file.resolve(), file)
     return places
-
-
-def _below(folder: Path) -> Iterator[Path]:
-    for place, folders, names in os.walk(folder):
-        yield from (Path(place, name) for name in names)
-        folders[:] = [name for name in folders if _is_entered(Path(place, name))]
-
-
-def _is_entered(folder: Path) -> bool:
-    is_left_out = any(fnmatchcase(folder.name, pattern) for pattern in _NOT_ENTERED)
-    return not is_left_out and not (folder / _MARK_OF_ENVIRONMENT).is_file()
 
 
 def load_file(path: Path, vary: Vary = AS_WRITTEN) -> Loaded:

@@ -13,17 +13,15 @@ from typing import TYPE_CHECKING, Any, Final
 
 import pytest
 
+from conformance.case_folders import CASE_SUFFIXES, yaml_files
 from conformance.installed import installed
 from conformance.option_types import positive, whole_from
 from conformance.summary import Counts
 
 if TYPE_CHECKING:
-    from collections.abc import Iterable
-
     from conformance.candidates.base import Candidate
 
 BUILT_IN_CASES: Final = Path(__file__).parent / "cases"
-CASE_SUFFIXES: Final = (".yaml", ".yml")
 _CASE_KEYS: Final = re.compile(rb"^(?:\xef\xbb\xbf)?(?:cases|id|query|retail)[ \t]*:", re.MULTILINE)
 """What a file of cases has and other YAML hardly: a case's keys, or that of a list of cases."""
 FIXTURES_VARIABLE: Final = "RETAIL_FIXTURES"
@@ -145,13 +143,9 @@ def _case_path(text: str) -> Path:
     path = installed(Path(text)).resolve()
     if not path.exists():
         raise pytest.UsageError(f"--cases {text}: there is no such folder or file")
-    if path.is_dir() and not any(_case_files(path)):
+    if path.is_dir() and not yaml_files(path):
         raise pytest.UsageError(f"--cases {text}: there is no *.yaml file in it")
     return path
-
-
-def _case_files(folder: Path) -> Iterable[Path]:
-    return (path for path in folder.rglob("*") if path.suffix in CASE_SUFFIXES)
 
 
 def _named_files(config: pytest.Config) -> list[Path]:
@@ -177,7 +171,7 @@ def _case_folders(config: pytest.Config) -> list[str]:
     if config.args_source is not config.ArgsSource.ARGS:
         return []
     folders = [arg for arg in config.args if Path(arg).is_dir()]
-    return [arg for arg in folders if any(map(has_cases, _case_files(Path(arg))))]
+    return [arg for arg in folders if any(map(has_cases, yaml_files(Path(arg))))]
 
 
 def _check_candidate(config: pytest.Config) -> None:
@@ -234,7 +228,7 @@ def _found_folder(config: pytest.Config) -> Path:
 def _found_cases(config: pytest.Config) -> list[Path]:
     """List the cases that earlier random runs have found, which are replayed first."""
     folder = _found_folder(config)
-    return sorted(path.resolve() for path in _case_files(folder)) if folder.is_dir() else []
+    return sorted(path.resolve() for path in yaml_files(folder)) if folder.is_dir() else []
 
 
 def pytest_collect_file(file_path: Path, parent: pytest.Collector) -> pytest.Collector | None:

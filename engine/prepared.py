@@ -9,13 +9,15 @@ import numpy as np
 from engine import layout as at
 from engine.batch import check_status
 from engine.coherence import AS_ASKED
+from engine.errors import QueryError
 from engine.kernels import program
 from engine.kernels.sharing import LANE_INTS, LANE_NEXT
 from engine.memory import rows_as_numbers
-from engine.plan import FULL_PLAN, Plan, of_calls
+from engine.plan import CHECK_PLAN, FULL_PLAN, Plan, of_calls
 from engine.query import CollisionCall, Move, collision_rows, move_rows
 from engine.threads import new_share
 from engine.tracing import runnable
+from engine.world import CHECK_WORLD
 
 if TYPE_CHECKING:
     from engine.world import World
@@ -65,6 +67,8 @@ class Prepared:
     """
 
     def __init__(self, world: World, query: Move | CollisionCall, *, plan: Plan = FULL_PLAN) -> None:
+        CHECK_WORLD(world, "world", QueryError)
+        CHECK_PLAN(plan, "plan", QueryError)
         if isinstance(query, Move):
             rows, job = move_rows(world, [query]), program.RESOLVE
         else:
@@ -94,8 +98,8 @@ class Prepared:
 
         Raises
         ------
-        RecursionBoundError, UndeterminedError
-            As `engine.resolve`.
+        QueryError, RecursionBoundError, UndeterminedError
+            As `engine.resolve`, the first for a `query` that has been changed to one that cannot be asked.
         """
         self._share[_NEXT] = 0
         runnable(program.run)(*self._arguments)

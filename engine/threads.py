@@ -17,7 +17,7 @@ from typing import TYPE_CHECKING, Final
 
 import numpy as np
 
-from engine.checks import told
+from engine.checks import whole
 from engine.errors import QueryError
 from engine.kernels.sharing import (
     LANE_END,
@@ -39,6 +39,7 @@ if TYPE_CHECKING:
 
 _LANE, _NEXT, _END = int(LANE_INTS), int(LANE_NEXT), int(LANE_END)
 """As Python's own integers, with which it calculates faster."""
+_CHECK_THREADS: Final = whole(1)
 PATIENCE: Final = 0.0005
 """Seconds in which a helper's last turn is waited for awake: to be woken takes as long as many queries."""
 
@@ -62,9 +63,8 @@ def sharing(count: int, threads: int) -> int:
     QueryError
         If `threads` is not a number of threads.
     """
-    if not isinstance(threads, int) or threads < 1:
-        raise QueryError("threads", f"{told(threads)} where at least 1 is needed")
-    return 1 if is_recording() else max(min(threads, count), 1)
+    _CHECK_THREADS(threads, "threads", QueryError)
+    return 1 if is_recording() else max(min(int(threads), count), 1)
 
 
 def together(work: Callable[[Ints], None], count: int, threads: int) -> int:

@@ -96,8 +96,10 @@ def _suggest(args: argparse.Namespace) -> int:
     from conformance.candidates.base import close
     from conformance.console import print_document
     from conformance.deviations.drafts import draft
-    from conformance.files import write_text
+    from conformance.files import check_writable, write_text
 
+    if args.output is not None:
+        check_writable(args.output)
     candidate = candidate_from(args)
     try:
         failures, compared = _ask(_cases(args), candidate)

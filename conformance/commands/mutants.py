@@ -36,7 +36,8 @@ retail (both sides of a limit are two cases), or, if no input could, list it wit
 conformance/mutation/equivalents.yaml. An entry about a mutant that is noticed, or that is not there, is a
 mistake as well.
 
-Findings are written to the journal one by one. With --resume a run goes on where it was ended; after a
+Findings are written to the journal one by one. With --resume a run goes on where it was ended; without, a
+journal that holds findings is refused. After a
 change of the oracle or of the cases it judges anew, and first asks what noticed a mutant the last time.
 
 Exit codes: 0 the score is reached, 1 it is not, or an entry is wrong, 2 usage, 4 nothing ran, 130 Ctrl-C.
@@ -84,6 +85,7 @@ def configure(parser: argparse.ArgumentParser) -> None:
 def run(args: argparse.Namespace) -> int:
     """Print the scores and the survivors and return the exit code."""
     from conformance.console import make_console
+    from conformance.files import check_writable
     from conformance.mutation.run import DOCUMENTS, Work, all_plans
 
     if args.output is not None and (args.only or args.sample or args.documents):
@@ -96,6 +98,8 @@ def run(args: argparse.Namespace) -> int:
         for number in chosen:
             console.print(str(plans[number].mutant))
         return exit_codes.OK if chosen else exit_codes.NOTHING_RAN
+    if args.output is not None:
+        check_writable(args.output)
     entries = _equivalents()
     work = Work(tuple(args.documents or DOCUMENTS), chosen, args.jobs, args.journal, args.resume)
     findings = _judged(work, plans)
@@ -144,7 +148,9 @@ def _judged(work: Work, plans: Sequence[Plan]) -> list[Finding]:
     with Progress() as progress:
         try:
             return judge(work, plans, progress.say)
-        except (JournalError, OSError) as error:
+        except FileExistsError as error:
+            raise UsageError(f"{error}: --resume goes on with it, another --journal begins anew") from error
+        except JournalError as error:
             raise UsageError(str(error)) from error
         except WorkerLostError as error:
             raise UsageError(f"{error}; {kept}") from error
@@ -172,7 +178,9 @@ def _scores(entries: Sequence[Entry], findings: Sequence[Finding]) -> Scores:
 
 def _report(scores: Scores, mistakes: Sequence[str], args: argparse.Namespace) -> int:
     from conformance.console import make_console
-    from conformance.report.mutation import score_table
+    from conformance.files import write_text
+    from conformance.mutation.trial import PATIENCE
+    from conformance.report.mutation import page, score_table
 
     console = make_console()
     if not console.is_terminal:
@@ -183,7 +191,7 @@ def _report(scores: Scores, mistakes: Sequence[str], args: argparse.Namespace) -
     for mistake in mistakes:
         console.print(mistake, style="red")
     if args.output is not None:
-        _write(args.output, scores)
+        write_text(args.output, page(scores, PATIENCE))
     total = scores.total
     if not total.noticeable:
         return exit_codes.NOTHING_RAN
@@ -193,13 +201,3 @@ def _report(scores: Scores, mistakes: Sequence[str], args: argparse.Namespace) -
         summary if reached else f"{summary}, less than {args.least:g} %", style="green" if reached else "red"
     )
     return exit_codes.OK if reached and not mistakes else exit_codes.FAILURES
-
-
-def _write(path: Path, scores: Scores) -> None:
-    from conformance.mutation.trial import PATIENCE
-    from conformance.report.mutation import page
-
-    try:
-        path.write_text(page(scores, PATIENCE), encoding="utf-8", newline="\n")
-    except OSError as error:
-        raise UsageError(f"cannot write {path}: {error}") from error

@@ -48,7 +48,8 @@ def find_case(text: str, vary: Vary | None = None) -> Case:
     UsageError
         There is none, or the file alone does not say which.
     """
-    from conformance.loader import AS_WRITTEN, CASE_SUFFIXES, NoCasesError, load_mentioning, load_paths
+    from conformance.case_folders import CASE_SUFFIXES
+    from conformance.loader import AS_WRITTEN, NoCasesError, load_mentioning, load_paths
 
     file, _, case_id = text.rpartition(_SEPARATOR)
     if not file and Path(text).suffix in CASE_SUFFIXES:

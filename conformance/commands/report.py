@@ -70,10 +70,11 @@ def configure(parser: argparse.ArgumentParser) -> None:
 def run(args: argparse.Namespace) -> int:
     """Write the page, and return the exit code: 1 on any failure, 4 when nothing was compared."""
     from conformance.console import make_console
-    from conformance.files import write_text
+    from conformance.files import check_writable, write_text
     from conformance.report.html.entries import Status
     from conformance.report.html.page import page
 
+    check_writable(args.output)
     report = _report(args)
     write_text(args.output, page(report))
     counts = ", ".join(f"{report.counts[status]} {status.value}" for status in Status)
@@ -141,12 +142,19 @@ def _cases(given: list[str], poses: int | None) -> tuple[list[Case], list[Proble
     from conformance.loader import NoCasesError, Vary, load_paths
 
     vary = Vary(poses)
-    paths = [Path(text) for text in given if Path(text).exists()]
+    paths = [Path(text) for text in given if _is_there(text)]
     try:
         loaded = load_paths(paths, vary) if paths or not given else None
     except (NoCasesError, OSError) as error:
         raise UsageError(str(error)) from error
     cases = list(loaded.cases) if loaded else []
-    cases += [find_case(text, vary) for text in given if not Path(text).exists()]
+    cases += [find_case(text, vary) for text in given if not _is_there(text)]
     unique = {(case.id, case.location): case for case in cases}
     return list(unique.values()), list(loaded.problems) if loaded else []
+
+
+def _is_there(text: str) -> bool:
+    """Tell whether an argument is a file, a folder or a pattern of files."""
+    from conformance.installed import meant
+
+    return any(path.exists() for path in meant(Path(text)))

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any, Final
 
 from conformance import exit_codes
 from conformance.commands.options import UsageError, add_candidate_option, candidate_from
-from conformance.installed import installed
+from conformance.installed import meant
 from conformance.option_types import whole_from
 
 if TYPE_CHECKING:
@@ -86,7 +86,7 @@ def _vector_files(given: list[Path]) -> list[Path]:
 
     shared = {*GEOMETRY_FILES, WORLD_FILE}
     paths: list[Path] = []
-    for path in (meant for one in given for meant in _meant(one)):
+    for path in (path for one in given for path in meant(one)):
         if path.is_dir():
             paths += (found := sorted(p for p in path.glob("*.jsonl") if p.name not in shared))
             if not found:
@@ -96,13 +96,6 @@ def _vector_files(given: list[Path]) -> list[Path]:
         else:
             raise UsageError(f"no such file: {path}")
     return paths
-
-
-def _meant(path: Path) -> list[Path]:
-    """List the files that an argument means: a pattern is one that no shell has expanded."""
-    if "*" in path.name:
-        return sorted(installed(path.parent).glob(path.name)) or [path]
-    return [installed(path)]
 
 
 def _verify(paths: list[Path], args: argparse.Namespace) -> tuple[list[tuple[Path, Tally]], Tally, bool]:

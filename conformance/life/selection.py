@@ -7,6 +7,7 @@ from dataclasses import dataclass
 from pathlib import Path, PurePosixPath
 from typing import TYPE_CHECKING, Any, Final
 
+from conformance.installed import installed
 from conformance.loader import BUILT_IN_CASES
 from conformance.source import nearest
 
@@ -29,7 +30,7 @@ class Filters:
     ops : sequence of str
         Operations, one of which it asks; a case has only one.
     paths : sequence of str
-        Patterns such as ``walks/*.yaml``, or the name of a folder or file; its file meets one.
+        Patterns such as ``walks/*.yaml``, the name of a folder or file, or its path; its file meets one.
     """
 
     tags: Sequence[str] = ()
@@ -43,7 +44,7 @@ class Filters:
             set(self.tags) <= set(case.tags)
             and all(any(_is_named(one, name) for one in functions_of(case)) for name in self.functions)
             and (not self.ops or case.op in self.ops)
-            and (not self.paths or any(_is_at(place_of(case), pattern) for pattern in self.paths))
+            and (not self.paths or any(_is_at(case, pattern) for pattern in self.paths))
         )
 
 
@@ -65,8 +66,12 @@ def _is_named(function: str, name: str) -> bool:
     return name in {function, function.rpartition("::")[2]}
 
 
-def _is_at(place: PurePosixPath, pattern: str) -> bool:
-    return pattern in place.parts or place.match(pattern)
+def _is_at(case: Case, pattern: str) -> bool:
+    place, path = place_of(case), Path(pattern)
+    below = path.as_posix()  # of a backslash, too, where those separate folders
+    if below in place.parts or place.match(below) or place.is_relative_to(below):
+        return True
+    return Path(case.location.file).resolve().is_relative_to(installed(path).resolve())
 
 
 def _tags(case: Case) -> Iterable[str]:

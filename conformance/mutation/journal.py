@@ -30,13 +30,15 @@ class Journal:
     digest : str
         Of the oracle's sources and the questions; see `digest_of`.
     resume : bool
-        Whether to take what the file holds. Findings under the same digest are taken as they are; of
-        findings under another one, the question that noticed a mutant is asked first.
+        Whether to take the findings that the file holds. Those under the same digest are taken as they are;
+        of those under another one, the question that noticed a mutant is asked first.
 
     Raises
     ------
     JournalError
         The file holds something else.
+    FileExistsError
+        It holds findings that are not to be gone on with.
     OSError
         It cannot be read.
     """
@@ -44,7 +46,9 @@ class Journal:
     def __init__(self, path: Path, digest: str, *, resume: bool) -> None:
         self.path = path
         self._digest = digest
-        lines = list(_read(path)) if resume and path.exists() else []
+        lines = list(_read(path)) if path.exists() else []
+        if len(lines) > 1 and not resume:
+            raise FileExistsError(f"{path} holds findings already")
         self._is_current = bool(lines) and lines[0].get(_SUITE) == digest
         self._records = {_key(line): line for line in lines[1:]}
         self._writer: JournalWriter | None = None

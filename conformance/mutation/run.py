@@ -14,7 +14,7 @@ from conformance.mutation.journal import Journal, digest_of
 from conformance.mutation.operators import plans
 from conformance.mutation.reach import reaches
 from conformance.mutation.trial import Trial
-from conformance.workers import end_with_parent
+from conformance.workers import serve_parent, without_interrupts
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Collection, Iterator, Mapping, Sequence
@@ -111,7 +111,8 @@ def _judged(
     # What Hypothesis draws depends on the modules that a process has loaded: workers are given it.
     pool = ProcessPoolExecutor(work.jobs, context, _begin, (work.documents, asked))
     try:
-        futures = [pool.submit(_judge_one, number, hint) for number, hint in hints.items()]
+        with without_interrupts():
+            futures = [pool.submit(_judge_one, number, hint) for number, hint in hints.items()]
         yield from _results(futures)
     finally:
         pool.shutdown(wait=False, cancel_futures=True)
@@ -133,7 +134,7 @@ class _Worker:
 
 
 def _begin(documents: tuple[str, ...], asked: Asked) -> None:
-    end_with_parent()
+    serve_parent()
     _Worker.plans = all_plans(documents)
     _Worker.trial = Trial(*asked)
 

@@ -8,6 +8,7 @@ from concurrent.futures.process import BrokenProcessPool
 from typing import TYPE_CHECKING, ParamSpec, Protocol, TypeVar
 
 from conformance.soak.workshop import open_process
+from conformance.workers import without_interrupts
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -79,12 +80,13 @@ class Processes:
 
     def submit(self, task: Callable[P, T], /, *args: P.args, **kwargs: P.kwargs) -> Future[T]:
         """Give one of them a task."""
-        try:
-            return self._pool.submit(task, *args, **kwargs)
-        except BrokenProcessPool:
-            self._pool.shutdown(wait=False, cancel_futures=True)
-            self._pool = self._open()
-            return self._pool.submit(task, *args, **kwargs)
+        with without_interrupts():  # it may have to be started first
+            try:
+                return self._pool.submit(task, *args, **kwargs)
+            except BrokenProcessPool:
+                self._pool.shutdown(wait=False, cancel_futures=True)
+                self._pool = self._open()
+                return self._pool.submit(task, *args, **kwargs)
 
     def close(self) -> None:
         """Tell them that nobody waits any more."""

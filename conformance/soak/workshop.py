@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import signal
 import threading
 from dataclasses import dataclass
 from functools import lru_cache, partial
@@ -16,7 +15,7 @@ from conformance.soak.identity import identity_of
 from conformance.soak.records import Identity
 from conformance.soak.shard import ask_shard
 from conformance.soak.shrinking import found_case
-from conformance.workers import end_with_parent
+from conformance.workers import serve_parent
 
 if TYPE_CHECKING:
     from multiprocessing.synchronize import Event
@@ -133,8 +132,7 @@ def shrink(work: Work, spot: Spot) -> FoundCase:
 
 def open_process(stopped: Event) -> None:
     """Prepare a process of its own; Ctrl-C is for who has started it, and tells by the event."""
-    signal.signal(signal.SIGINT, signal.SIG_IGN)
-    end_with_parent()
+    serve_parent()
     _STOPS.append(stopped)
 
 

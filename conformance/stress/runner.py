@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import multiprocessing
-import signal
 import time
 from concurrent.futures import FIRST_COMPLETED, ProcessPoolExecutor, wait
 from concurrent.futures.process import BrokenProcessPool
@@ -13,7 +12,7 @@ from typing import TYPE_CHECKING, Final
 
 from conformance.stress.families import FAMILIES
 from conformance.stress.models import make_models
-from conformance.workers import end_with_parent
+from conformance.workers import serve_parent, without_interrupts
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Sequence
@@ -121,9 +120,11 @@ def _run_in_processes(plan: Plan, parts: list[Part], into: Findings, say: Callab
     context = multiprocessing.get_context("spawn")  # the same on every platform, and safe beside threads
     said, stopped = context.SimpleQueue(), context.Event()
     begin = (plan.settings, plan.candidate, said, stopped)
+    _kept.append(begin)
     pool = ProcessPoolExecutor(plan.jobs, mp_context=context, initializer=_open, initargs=begin)
     try:
-        waiting = {pool.submit(_run, part): part for part in parts}
+        with without_interrupts():
+            waiting = {pool.submit(_run, part): part for part in parts}
         while waiting:
             _collect(waiting, into)
             text = _latest(said)
@@ -187,14 +188,15 @@ class Worker:
             self._said.put(text)
 
 
+_kept: list[object] = []
+"""What worker processes are told by: one that has just been started may ask for it when the run is over."""
 _workers: list[Worker] = []
 """In a worker process, itself."""
 
 
 def _open(settings: Settings, candidate: Spec, said: SimpleQueue[str], stopped: Event) -> None:
     """Prepare a worker process; Ctrl-C is the parent's to act on."""
-    signal.signal(signal.SIGINT, signal.SIG_IGN)
-    end_with_parent()
+    serve_parent()
     _workers.append(Worker(settings, candidate, said, stopped))
 
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import errno
+import io
 import json
 import os
 import signal
@@ -10,14 +11,14 @@ import subprocess
 import sys
 from importlib.metadata import entry_points
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import pytest
 
 from conformance import bug_hunt, cli, exit_codes, verification
 from conformance.bug_hunt import HuntBrokenOffError, hunt
 from conformance.candidates.known_bugs import list_bugs
-from conformance.console import Progress
+from conformance.console import Progress, print_document
 from conformance.files import write_text
 
 if TYPE_CHECKING:
@@ -162,6 +163,54 @@ def test_a_device_is_written_to_directly() -> None:
     """A disk that is really full raises what the system says."""
     with pytest.raises(OSError, match=os.strerror(errno.ENOSPC)):
         write_text(Path("/dev/full"), "text\n")
+
+
+@pytest.mark.skipif(not Path("/dev/full").exists(), reason="skipped: no device that is always full")
+@pytest.mark.parametrize("words", [["list", "--json"], ["bugs", "--list"]])
+@pytest.mark.parametrize("unbuffered", [(), ("-u",)])
+def test_a_full_disk_behind_stdout(words: list[str], unbuffered: tuple[str, ...]) -> None:
+    """What was printed is not there: never a green exit code, nor that of a crash."""
+    command = [sys.executable, *unbuffered, "-m", "conformance.cli", *words]
+    with Path("/dev/full").open("wb") as full:
+        done = subprocess.run(command, cwd=ROOT, stdout=full, stderr=subprocess.PIPE, check=False)
+    assert done.returncode == exit_codes.CANNOT_WRITE
+    assert os.strerror(errno.ENOSPC).encode() in done.stderr
+
+
+def test_a_document_reaches_a_stream_that_takes_little(monkeypatch: pytest.MonkeyPatch) -> None:
+    """An unbuffered one may take a part, and says how much."""
+
+    class Narrow(io.RawIOBase):
+        taken = b""
+
+        def writable(self) -> bool:
+            return True
+
+        def write(self, some: Any) -> int:
+            self.taken += bytes(some[:7])
+            return len(some[:7])
+
+    narrow = Narrow()
+    # What `python -u` gives a program as its stdout.
+    monkeypatch.setattr(sys, "stdout", io.TextIOWrapper(narrow, write_through=True))  # type: ignore[type-var]
+    print_document("half a million bytes of JSON, ä\n")
+    assert narrow.taken == "half a million bytes of JSON, ä\n".encode()
+
+
+@pytest.mark.parametrize(
+    "words",
+    [
+        ["report", "--no-views", "no-such-case", "--output"],
+        ["deviations", "--suggest", "--cases", "no-such-folder", "--output"],
+    ],
+)
+def test_where_results_go_is_looked_at_first(
+    words: list[str], tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    """Before anything is read or asked, which takes minutes."""
+    assert cli.main([*words, str(tmp_path)]) == exit_codes.CANNOT_WRITE
+    assert f"cannot write {tmp_path}" in capsys.readouterr().err
+    assert list(tmp_path.iterdir()) == []
 
 
 IS_INSTALLED = any(point.value == "conformance.plugin" for point in entry_points(group="pytest11"))

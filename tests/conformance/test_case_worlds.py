@@ -9,12 +9,14 @@ import pytest
 
 from conformance.candidates.registry import make_candidate
 from conformance.case_query import WORLD_OPS
+from conformance.case_references import is_loaded, known_cells
 from conformance.case_registration import sorting_sphere
 from conformance.cli import main
 from conformance.floats import to_float32
 from conformance.loader import load_file
 from conformance.query import Result
 from conformance.scenes.algebra import length, subtract
+from conformance.schema.scene import SceneModel
 
 if TYPE_CHECKING:
     from pathlib import Path
@@ -351,3 +353,11 @@ def test_the_trace_tells_each_change_of_cell(capsys: pytest.CaptureFixture[str])
     way = ["0xA9B40029", "0xA9B40150", "0xA9B4013F", "0xA9B40150", "0xA9B40029"]
     for line, (old, new) in zip(lines, pairwise(way), strict=True):
         assert f"{old} -> {new}" in line
+
+
+def test_a_message_names_only_cells_that_are_there() -> None:
+    """Land of less detail has none of its own."""
+    terrain = [{"blocks": [0xA9B4], "flat": 94.0}, {"blocks": [0xA9B5], "flat": 94.0, "side_cell_count": 4}]
+    scene = SceneModel.model_validate({"terrain": terrain})
+    assert known_cells(scene) == "0xA9B40001 to 0040"
+    assert [is_loaded(cell, scene) for cell in (0xA9B40001, 0xA9B50001)] == [True, False]

@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
+import os
 from pathlib import Path
 
 import pytest
 
 from conformance import exit_codes
 from conformance.cli import main
-from conformance.installed import installed
+from conformance.installed import installed, meant
 
 PACKAGE = Path(__file__).parents[2] / "conformance"
 MATH = "conformance/vectors/boundary_math.jsonl"
@@ -57,3 +58,27 @@ def test_cases_are_looked_over(capsys: pytest.CaptureFixture[str]) -> None:
     """As by every command that reads case files."""
     assert main(["lint", "conformance/cases/contact-plane"]) == exit_codes.OK
     assert "0 problems" in capsys.readouterr().out
+
+
+@pytest.mark.usefixtures("elsewhere")
+@pytest.mark.parametrize(
+    "words",
+    [
+        ["lint", "conformance/cases/contact-plane/ori*.yaml"],
+        ["fmt", "--check", "conformance/cases/contact-plane/ori*.yaml"],
+        ["list", "conformance/cases/contact-plane/ori*.yaml", "--path", "conformance/cases/contact-plane"],
+        ["export", "conformance/cases/contact-plane/ori*.yaml", "--poses", "0", "-o", "vectors.jsonl"],
+    ],
+)
+def test_patterns_of_case_files_are_expanded(words: list[str]) -> None:
+    """By every command that reads them: shells of Windows don't."""
+    assert main(words) == exit_codes.OK
+
+
+def test_a_file_may_be_called_like_a_pattern(elsewhere: Path) -> None:
+    """It is meant, then, and nothing else."""
+    (elsewhere / "a.yaml").touch()
+    assert meant(Path("*.yaml")) == [Path("a.yaml")]
+    if os.name != "nt":
+        (elsewhere / "*.yaml").touch()
+        assert meant(Path("*.yaml")) == [Path("*.yaml")]

@@ -43,6 +43,9 @@ def test_every_case_of_a_file_is_listed_with_its_title(capsys: pytest.CaptureFix
         ("--path", "contact-plane"),
         ("--path", "origin.yaml"),
         ("--path", "contact-plane/*.yaml"),
+        ("--path", "contact-plane/"),
+        ("--path", str(BUILT_IN_CASES / "contact-plane")),
+        ("--path", str(BUILT_IN_CASES / "contact-plane" / "origin.yaml")),
     ],
 )
 def test_a_filter_keeps_what_meets_it(filters: tuple[str, ...], capsys: pytest.CaptureFixture[str]) -> None:

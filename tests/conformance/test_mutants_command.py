@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+from pathlib import Path
 
 import pytest
 
@@ -11,9 +11,6 @@ from conformance.cli import main
 from conformance.mutation import asking, run
 from conformance.mutation.asking import Question
 from conformance.query import Query
-
-if TYPE_CHECKING:
-    from pathlib import Path
 
 SITE = "vector.Vector3.normalize_check_small"
 ONLY = ["mutants", "--documents", "01", "--only", SITE]
@@ -78,6 +75,25 @@ def test_a_wrong_command_line(arguments: list[str], message: str, capsys: pytest
     """Each says what there is instead."""
     assert main(["mutants", *arguments]) == 2
     assert message in capsys.readouterr().err
+
+
+def test_findings_are_not_lost(journal: str, capsys: pytest.CaptureFixture[str]) -> None:
+    """A journal that holds some is only gone on with."""
+    main([*ONLY, "--journal", journal])
+    found = Path(journal).read_bytes()
+    assert main([*ONLY, "--journal", journal]) == exit_codes.USAGE
+    assert "--resume goes on with it, another --journal begins anew" in capsys.readouterr().err
+    assert Path(journal).read_bytes() == found
+
+
+def test_what_cannot_be_written_is_told(
+    journal: str, monkeypatch: pytest.MonkeyPatch, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    """The page's place before any mutant is asked about."""
+    assert main([*ONLY, "--journal", str(tmp_path)]) == exit_codes.CANNOT_WRITE
+    monkeypatch.setattr(run, "judge", None)
+    assert main(["mutants", "--journal", journal, "--output", str(tmp_path)]) == exit_codes.CANNOT_WRITE
+    assert f"cannot write {tmp_path}" in capsys.readouterr().err
 
 
 def test_the_poses_are_five_hundred() -> None:

@@ -169,9 +169,10 @@ def test_truncated_json(tmp_path: Path, text: bytes, line: int, column: int) -> 
         (b'{"origin": [' + b"9" * 5000 + b", 0, 0]}", "a number of 5000 digits"),
         (b"[" * 100_000, "lists or objects nested too deeply"),
         (b'{"cell": "0xA9B40151", "cell": "0xA9B40152"}', "the key 'cell' twice in an object"),
+        (b'{"cell": "\\ud83d"}', "half a character, U+D83D"),
         (b" " * ((1 << 24) + 1), "more than 16777216 bytes"),
     ],
-    ids=("nan", "infinite", "encoding", "digits", "nested", "twice", "long"),
+    ids=("nan", "infinite", "encoding", "digits", "nested", "twice", "half", "long"),
 )
 def test_text_that_no_dump_holds(tmp_path: Path, text: bytes, found: str) -> None:
     """NaN, infinities, bytes that are not UTF-8, and what is too long or too deep are refused."""

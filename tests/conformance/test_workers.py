@@ -101,3 +101,25 @@ def test_a_worker_ends_with_its_stdin(environment: Mapping[str, str]) -> None:
         assert child.stdout.readline().rstrip() == "at work"
         assert child.communicate(timeout=SECONDS) == ("", None)
         assert child.returncode == 130
+
+
+@pytest.mark.skipif(os.name == "nt", reason="skipped: Windows has no signals to block")
+def test_a_process_is_born_deaf_to_interrupts(environment: Mapping[str, str]) -> None:
+    """An interrupt that comes while it is started reaches who has started it, afterwards, and nobody else."""
+    program = """
+import os, signal, subprocess, sys
+from conformance.workers import without_interrupts
+
+child = "import signal; signal.raise_signal(signal.SIGINT); print('deaf')"
+signal.signal(signal.SIGINT, signal.default_int_handler)
+try:
+    with without_interrupts():
+        signal.raise_signal(signal.SIGINT)
+        print(subprocess.run([sys.executable, "-c", child], stdout=subprocess.PIPE, text=True).stdout)
+except KeyboardInterrupt:
+    print("interrupted")
+"""
+    done = subprocess.run(
+        [sys.executable, "-c", program], stdout=subprocess.PIPE, encoding="utf-8", env=environment, check=True
+    )
+    assert done.stdout.split() == ["deaf", "interrupted"]

@@ -47,6 +47,11 @@ def test_the_query_may_be_changed_between_runs() -> None:
 
 def test_what_cannot_be_asked_is_refused_at_once() -> None:
     """Before the first run."""
+    for query in (MOVE, CALL):
+        with pytest.raises(QueryError, match="plan"):
+            Prepared(world_of(floor_and_wall()), query, plan=None)  # type: ignore[arg-type]
+        with pytest.raises(QueryError, match="world"):
+            Prepared(None, query)  # type: ignore[arg-type]
     with pytest.raises(QueryError, match="begin cell"):
         Prepared(world_of(floor_and_wall()), replace(MOVE, begin_cell=CELL + 1))
 

@@ -6,7 +6,7 @@ import os
 from concurrent.futures import ThreadPoolExecutor
 from threading import Barrier, Lock, current_thread, main_thread
 from threading import enumerate as enumerate_threads
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 import pytest
@@ -144,12 +144,6 @@ def test_what_cannot_be_answered_is_counted() -> None:
     assert [together(work, count, threads) for threads in (1, 3)] == [count, count]
 
 
-def test_no_threads_are_no_number_of_threads() -> None:
-    """At least the calling one."""
-    with pytest.raises(QueryError, match="threads: 0"):
-        resolve_many(world_of(floor_and_wall()), MOVES, threads=0)
-
-
 def test_an_error_in_a_thread_is_raised() -> None:
     """Not swallowed with the thread; of two, either."""
 
@@ -218,3 +212,12 @@ def test_while_writes_are_recorded_there_is_one_thread() -> None:
     with recording():
         together(shares.append, 4, 2)
     assert [share[SHARE_LANES] for share in shares] == [1]
+
+
+@pytest.mark.parametrize("threads", [0, -1, 1.0, None])
+def test_what_is_no_number_of_threads_is_refused(threads: Any) -> None:
+    """Whole numbers of NumPy are numbers, too."""
+    world = world_of(floor_and_wall())
+    with pytest.raises(QueryError, match="threads"):
+        resolve_many(world, MOVES, threads=threads)
+    assert resolve_many(world, MOVES, threads=np.int64(2)).tobytes() == resolve_many(world, MOVES).tobytes()

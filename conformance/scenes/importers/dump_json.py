@@ -6,7 +6,7 @@ import json
 import math
 from typing import TYPE_CHECKING, Any, Final
 
-from conformance.json_reading import LooseJsonError, once_each
+from conformance.json_reading import LooseJsonError, once_each, refuse_halves
 from conformance.scenes.errors import SceneError
 
 if TYPE_CHECKING:
@@ -49,17 +49,18 @@ def read_json(file: Path) -> Any:
     ------
     DumpError
         The file is not there, too long, not UTF-8, not JSON (with line and column), nested too deeply, or
-        holds a number that is none or a key twice.
+        holds a number that is none, a key twice or half a character.
     """
     text = _read_text(file)
     try:
-        return json.loads(
+        value = json.loads(
             text,
             parse_int=_whole,
             parse_float=_float,
             parse_constant=_refuse,
             object_pairs_hook=once_each,
         )
+        refuse_halves(text, value)
     except json.JSONDecodeError as error:
         wrong = SceneError("", error.msg, "JSON")
         raise DumpError(str(file), wrong, error.lineno, error.colno) from error
@@ -70,6 +71,7 @@ def read_json(file: Path) -> Any:
         raise DumpError(str(file), SceneError("", error.found, error.expected)) from error
     except SceneError as error:
         raise DumpError(str(file), error) from error
+    return value
 
 
 def _read_text(file: Path) -> str:
