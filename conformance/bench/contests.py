@@ -14,7 +14,7 @@ from conformance.bench.precision import measure_precision
 from conformance.bench.report import Curve, Ratio
 from conformance.bench.settings import LARGE, SMALL, THREADS
 from conformance.bench.spots import Surfaces
-from conformance.bench.timing import accept, comparison, demand_equal, sample_of, take_turns
+from conformance.bench.timing import accept, comparison, demand_equal, quarter, sample_of, take_turns
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterator, Mapping, Sequence
@@ -89,7 +89,7 @@ class Contest:
 
     def beside_oracle(self, op: str) -> None:
         """Measure the engine, in calls of every size, beside the oracle."""
-        oracle = sample_of(oracle_maker(op), self.settings.sizes[op])
+        oracle = sample_of(oracle_maker(op), self.settings.sizes[op], LARGE)
         makers = [*(in_calls(op, batch) for batch in IN_TURN), oracle]
         *ours, theirs = self._turns(op, makers, self.settings.rounds)
         for batch, times in sorted(zip(IN_TURN, ours, strict=True)):
@@ -146,7 +146,7 @@ class Contest:
         names, makers = [], []
         for name in MODULES:
             try:
-                makers.append(sample_of(peer_maker(name), self.settings.sizes[ops.TOUCH]))
+                makers.append(sample_of(peer_maker(name), self.settings.sizes[ops.TOUCH], LARGE))
                 names.append(name)
             except ImportError:
                 self.report.omit(f"touch beside {name}", "it is not installed (extra `peers`)")
@@ -175,7 +175,7 @@ class Contest:
         judge: Callable[[Any, Sequence[Answer]], None] = demand_equal,
     ) -> list[list[float]]:
         works = self.works(op, rounds, size)
-        return take_turns(makers, works, warm_up=next(works), judge=judge)
+        return take_turns(makers, works, warm_up=next(works), judge=judge, lead_in=quarter)
 
     def _add(
         self,

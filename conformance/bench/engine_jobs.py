@@ -50,7 +50,7 @@ def engine_maker(op: str, batch: int, threads: int = 1, options: Mapping[str, An
 def in_calls(op: str, batch: int) -> Maker:
     """Return the engine in calls of so many queries: a sample of them where calls are small."""
     maker = engine_maker(op, batch)
-    return maker if batch == LARGE else sample_of(maker, SMALL)
+    return maker if batch == LARGE else sample_of(maker, SMALL, LARGE)
 
 
 def _all_of(calls: Sequence[Callable[[], Any]]) -> Callable[[], None]:

@@ -85,16 +85,27 @@ class Comparison:
     agreement: float = 1.0
 
 
-def sample_of(maker: Maker, count: int) -> Maker:
-    """Return an implementation that is asked the first `count` queries of its work, where others answer all.
+def sample_of(maker: Maker, count: int, of: int) -> Maker:
+    """Return an implementation that is asked the first `count` of `of` queries, where others answer all.
 
-    Queries are drawn in random order: the first ones are as random a sample as any.
+    Queries are drawn in random order: the first ones are as random a sample as any. Of work of another
+    length it is asked as large a share, rounded up.
     """
 
     def job_of_sample(work: Work) -> Job:
-        return maker(work.part(0, count))
+        return maker(work.part(0, -(-len(work) * count // of)))
 
     return job_of_sample
+
+
+def quarter(work: Work) -> Work:
+    """Return the first quarter of some work: enough for caches and predictions to be those of a long run."""
+    return work.part(0, -(-len(work) // 4))
+
+
+def whole(work: Any) -> Any:
+    """Return all of some work."""
+    return work
 
 
 @contextmanager
@@ -119,8 +130,12 @@ def take_turns(
     *,
     warm_up: Any,
     judge: Callable[[Any, Sequence[Answer]], None],
+    lead_in: Callable[[Any], Any] = whole,
 ) -> list[list[float]]:
     """Let implementations take turns.
+
+    Before its clock starts each does work of the round before once more: what the turns of others have driven
+    out of the caches is back, and the time told is that of a long run.
 
     Parameters
     ----------
@@ -129,9 +144,11 @@ def take_turns(
         The work of each round, at least one; drawn when its round comes, before the clock starts. Who begins
         moves on from round to round.
     warm_up : work
-        Done first, and not counted.
+        Done first, and not counted; the round before the first one.
     judge : callable
         Is told the work and all answers of every round, and raises if they are not what they must be.
+    lead_in : callable
+        Returns how much of the round before is done once more.
 
     Returns
     -------
@@ -146,20 +163,23 @@ def take_turns(
     for maker in makers:
         maker(warm_up).run()
     times: list[list[float]] = [[] for _ in makers]
+    before = warm_up
     with no_collection():
         for number, work in enumerate(rounds):
-            jobs = [maker(work) for maker in makers]
             answers: dict[int, Answer] = {}
-            for turn in range(len(jobs)):
-                side = (turn + number) % len(jobs)
-                elapsed, done = clock(jobs[side])
+            for turn in range(len(makers)):
+                side = (turn + number) % len(makers)
+                makers[side](lead_in(before)).run()
+                job = makers[side](work)  # not before: both use the same memory for what they answer
+                elapsed, done = clock(job)
                 times[side].append(elapsed)
-                answers[side] = _whole(jobs[side], done)
-            judge(work, [answers[side] for side in range(len(jobs))])
+                answers[side] = _all_answers(job, done)
+            judge(work, [answers[side] for side in range(len(makers))])
+            before = work
     return times
 
 
-def _whole(job: Job, done: Any) -> Answer:
+def _all_answers(job: Job, done: Any) -> Answer:
     """Return a job's answers, one for each of its queries."""
     answers = job.answer(done)
     if len(answers) != job.queries:

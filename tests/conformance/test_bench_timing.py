@@ -19,6 +19,7 @@ from conformance.bench.timing import (
     comparison,
     demand_equal,
     equal_rows,
+    quarter,
     sample_of,
     take_turns,
 )
@@ -59,12 +60,12 @@ class Diary:
 
 
 def test_everybody_begins_in_turn() -> None:
-    """After the warm-up the one who begins moves on from round to round."""
+    """After the warm-up the one who begins moves on; each does the round before once more, then its own."""
     diary: list[tuple[str, Any]] = []
     makers = [Diary("a", diary), Diary("b", diary)]
     times = take_turns(makers, [1, 2, 3], warm_up=0, judge=demand_equal)
-    assert "".join(name for name, _ in diary) == "ab" + "ab" + "ba" + "ab"
-    assert [work for _, work in diary] == [0, 0, 1, 1, 2, 2, 3, 3]
+    assert "".join(name for name, _ in diary) == "ab" + "aabb" + "bbaa" + "aabb"
+    assert [work for _, work in diary] == [0, 0, *[0, 1] * 2, *[1, 2] * 2, *[2, 3] * 2]
     assert [len(each) for each in times] == [3, 3]
 
 
@@ -90,7 +91,7 @@ def test_the_collector_rests_while_the_clock_runs() -> None:
         return Job(lambda: states.append(gc.isenabled()), lambda _done: np.zeros((1, 1)), 1)
 
     take_turns([maker], [0, 0], warm_up=0, judge=demand_equal)
-    assert states[1:] == [False, False]
+    assert states == [True, False, False, False, False]
     assert gc.isenabled()
 
 
@@ -143,16 +144,19 @@ def test_a_missing_answer_is_noticed() -> None:
 
 
 def test_a_sample_is_of_the_first_queries() -> None:
-    """They come in random order; nobody else is asked less for it."""
+    """They come in random order; nobody else is asked less for it. Of less work it is as large a share."""
     asked: list[list[int]] = []
 
     def maker(work: Numbers) -> Job:
         asked.append(list(work.values))
         return Job(lambda: None, lambda _done: np.zeros((len(work), 1)), len(work))
 
-    makers = [maker, sample_of(maker, 2)]
-    take_turns(makers, [Numbers((4, 5, 6))], warm_up=Numbers((1, 2, 3)), judge=demand_equal)
-    assert asked == [[1, 2, 3], [1, 2], [4, 5, 6], [4, 5]]
+    makers = [maker, sample_of(maker, 4, 8)]
+    first, second = Numbers((1, 2, 3, 4, 5, 6, 7, 8)), Numbers((11, 12, 13, 14, 15, 16, 17, 18))
+    take_turns(makers, [second], warm_up=first, judge=demand_equal, lead_in=quarter)
+    assert asked[:2] == [list(first.values), [1, 2, 3, 4]]
+    assert asked[2:4] == [[1, 2], list(second.values)]
+    assert asked[4:] == [[1], [11, 12, 13, 14]]
 
 
 def test_time_is_told_of_one_repeat(monkeypatch: pytest.MonkeyPatch) -> None:
@@ -173,7 +177,7 @@ def test_rounds_are_drawn_when_they_come() -> None:
             yield number
 
     take_turns([Diary("a", diary)], works(), warm_up=0, judge=demand_equal)
-    assert diary == [("a", 0), ("drawn", 1), ("a", 1), ("drawn", 2), ("a", 2)]
+    assert diary == [("a", 0), ("drawn", 1), ("a", 0), ("a", 1), ("drawn", 2), ("a", 1), ("a", 2)]
 
 
 def test_ratio_is_their_time_over_ours() -> None:
