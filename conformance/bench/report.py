@@ -2,11 +2,11 @@
 
 from __future__ import annotations
 
-import json
 from dataclasses import asdict, dataclass, field
 from typing import TYPE_CHECKING, Any
 
 from conformance.bench.machine import machine, versions
+from conformance.json_writing import json_text
 
 if TYPE_CHECKING:
     from conformance.bench.figures import Summary
@@ -229,4 +229,4 @@ class Report:
             "omissions": self.omissions,
             "failures": self.failures,
         }
-        return json.dumps(record, indent=2) + "\n"
+        return json_text(record, indent=2)

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import json
 from pathlib import Path
 from typing import TYPE_CHECKING, Final
 
@@ -135,11 +134,12 @@ def _write(survey: Survey, args: argparse.Namespace) -> None:
     from conformance.compare import differences
     from conformance.files import write_text
     from conformance.found import write_found
+    from conformance.json_writing import json_text
     from conformance.query import Result
     from conformance.report.errors import as_json
 
     if args.json is not None:
-        text = json.dumps(as_json(survey), indent=2) + "\n"
+        text = json_text(as_json(survey), indent=2)
         write_text(args.json, text)
     if args.save is None:
         return

@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
+import math
 from contextlib import contextmanager
 from dataclasses import dataclass
+from functools import partial
 from typing import TYPE_CHECKING, Any, Final
 
 from flint import ctx
@@ -14,12 +16,13 @@ from conformance.candidates.output_rounding import rounded_outputs
 from conformance.candidates.table import describe
 from conformance.exact.ball import Ball
 from conformance.exact.ties import SHOWN_DIGITS, UndecidedError, counting_ties
+from conformance.floats import to_float32
 from conformance.query import Errored, Result, Skipped
 
 if TYPE_CHECKING:
-    from collections.abc import Iterator, Sequence
+    from collections.abc import Callable, Iterator, Sequence
 
-    from conformance.query import Outcome, Query
+    from conformance.query import Fields, Outcome, Query
 
 LADDER: Final = (128, 256, 512, 1024)
 """Working precisions, bits; a query goes up until everything is decided.
@@ -74,8 +77,7 @@ class ExactCandidate(OracleCandidate):
 
     def answer(self, query: Query) -> Outcome:
         """Perform one operation; numbers are rounded once to the format that its outputs have."""
-        outcome = self.perform(query).outcome
-        return Result(rounded_outputs(query.op, outcome.fields)) if isinstance(outcome, Result) else outcome
+        return self._perform(query, partial(_rounded, query.op)).outcome
 
     def unrounded(self, query: Query) -> Outcome:
         """Perform one operation; numbers are the doubles nearest to the exact ones."""
@@ -83,23 +85,26 @@ class ExactCandidate(OracleCandidate):
 
     def perform(self, query: Query) -> ExactAnswer:
         """Perform one operation, with more precision until everything is decided."""
+        return self._perform(query, _told)
+
+    def _perform(self, query: Query, tell: Callable[[Fields], Fields]) -> ExactAnswer:
         outcome: Outcome = Skipped(f"{UNDECIDED}: no working precision")
         precision = runs = ties = 0
         for precision, scope in self._scopes.items():
             runs += 1
             with _working_at(precision), scope.active(), counting_ties() as counted:
-                decided, outcome = self._decided(query)
+                decided, outcome = self._decided(query, tell)
             ties = counted.count
             if decided:
                 break
         return ExactAnswer(outcome, precision, runs, ties)
 
-    def _decided(self, query: Query) -> tuple[bool, Outcome]:
+    def _decided(self, query: Query, tell: Callable[[Fields], Fields]) -> tuple[bool, Outcome]:
         operation = self.operations.get(query.op)
         if operation is None:
             return True, Skipped(f"{self.missing}: operation {query.op}")
         try:
-            return True, Result(_told(operation(query)))
+            return True, Result(tell(operation(query)))
         except UndecidedError as error:
             return False, Skipped(f"{UNDECIDED}: {error}")
         except self.unable as error:
@@ -133,11 +138,34 @@ def _told(value: Any) -> Any:
 def _certain(value: Ball) -> float:
     """Return the nearest double of a number that is known well enough; raises `UndecidedError` otherwise.
 
-    A number close to zero need not have all its bits: the same accuracy relative to one is enough.
+    A number close to zero need not have all its bits: the same accuracy relative to one is enough. What may
+    be zero, then, is told as zero.
     """
     number = value.arb
     if number.is_finite() and not number.is_exact():
         slack = abs(number.mid()) + 1
         if not number.rad() * 2**OUTPUT_BITS <= slack:
             raise UndecidedError(f"{number.str(SHOWN_DIGITS)} is told, at {ctx.prec} bits")
+        if number.contains(0):
+            return 0.0
     return float(number)
+
+
+def _rounded(op: str, fields: Fields) -> Fields:
+    """Return an answer as records have it: float32 where they have one, Python floats elsewhere."""
+    rounded: Fields = _told(rounded_outputs(op, fields, (float, Ball), _single))
+    return rounded
+
+
+def _single(value: Ball | float) -> float:
+    """Return the nearest float32 of a number; raises `UndecidedError` if it is not known well enough.
+
+    The nearest double may be in the middle between two, and the number beside it.
+    """
+    if not isinstance(value, Ball):
+        return to_float32(value)
+    near = _certain(value)
+    low, high = (to_float32(math.nextafter(near, end)) for end in (-math.inf, math.inf))
+    if low == high or near - low != high - near or value == near:
+        return to_float32(near)
+    return low if value < near else high

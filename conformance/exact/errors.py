@@ -169,9 +169,10 @@ def _positions(fields: Fields) -> list[Sequence[float]]:
 
 
 def _differences(a: Any, b: Any) -> list[float]:
-    """List the differences of the numbers that both answers have at the same place."""
+    """List the differences of the numbers that both answers have at the same place; NaN is as NaN is."""
     if isinstance(a, float) and isinstance(b, float):
-        return [abs(a - b)] if math.isfinite(a) and math.isfinite(b) else []
+        same = a == b or (math.isnan(a) and math.isnan(b))
+        return [0.0 if same else abs(a - b)]
     if isinstance(a, dict) and isinstance(b, dict):
         return [d for name in a.keys() & b.keys() for d in _differences(a[name], b[name])]
     if isinstance(a, list | tuple) and isinstance(b, list | tuple):
@@ -191,4 +192,10 @@ def angle_between(a: Sequence[float], b: Sequence[float]) -> float:
 
 
 def _worst(values: Iterable[float | None]) -> float | None:
-    return max((value for value in values if value is not None), default=None)
+    """Return the largest of what is known; NaN is larger than all."""
+    return max((value for value in values if value is not None), key=rank, default=None)
+
+
+def rank(value: float) -> tuple[bool, float]:
+    """Return by what errors are put in order, NaN last: it is as wrong as can be."""
+    return (True, 0.0) if math.isnan(value) else (False, value)

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import datetime as dt
 import hashlib
-import json
 from typing import TYPE_CHECKING, Any, Final
 
 from conformance import exit_codes
@@ -13,6 +12,7 @@ from conformance.files import write_text
 from conformance.gate.junit import junit_xml
 from conformance.gate.outcome import VERDICTS, Stage, Status
 from conformance.json_reading import read_json
+from conformance.json_writing import json_text
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
@@ -142,4 +142,4 @@ def _name(path: Path, folder: Path) -> str:
 
 
 def _json(record: Mapping[str, Any]) -> str:
-    return json.dumps(record, indent=1, ensure_ascii=False) + "\n"
+    return json_text(record, indent=1)

@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING, Final
 
 from pydantic import Field, model_validator
 
+from conformance.exact.errors import rank
 from conformance.schema.mistakes import mistake
 from conformance.schema.values import Strictly
 from conformance.source import nearest
@@ -145,7 +146,7 @@ def broken_bounds(budget: Budget, findings: Findings, *, whole: bool) -> Iterato
             yield f"{bound.words}: it is about no reading of this run"
         broken = [reading for reading in about if bound.broken_by(reading.quantities[bound.quantity])]
         if broken:
-            worst = max(broken, key=lambda reading: reading.quantities[bound.quantity])
+            worst = max(broken, key=lambda reading: rank(reading.quantities[bound.quantity]))
             value = worst.quantities[bound.quantity]
             yield (
                 f"{bound.words}: {value:.6g} in {worst.sweep} at {worst.severity:g} "

@@ -2,9 +2,10 @@
 
 from __future__ import annotations
 
-import json
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Any, Final
+
+from conformance.json_writing import json_text
 
 if TYPE_CHECKING:
     from collections.abc import Iterator, Mapping
@@ -185,4 +186,4 @@ class Findings:
             "failures": self.failures,
             "notes": self.notes,
         }
-        return json.dumps(record, indent=1) + "\n"
+        return json_text(record, indent=1)

@@ -6,6 +6,7 @@ import math
 from fractions import Fraction
 from typing import TYPE_CHECKING, Final
 
+from conformance.exact.errors import rank
 from conformance.scenes.algebra import add, dot
 from conformance.strategies.human import RADIUS
 from conformance.stress.courses import QUANTUM, SETTLED
@@ -59,7 +60,7 @@ class Gait:
     def _settled(self, tick: Fields, place: Vec3) -> None:
         height = dot(self._normal, add(place, CENTER)) + self._constant - RADIUS
         self._keep("height_metres", abs(height))
-        self._counts["falls"] += height < -BELOW
+        self._counts["falls"] += not height >= -BELOW
         self._counts["stuck"] += self._course.velocity is not None and place == self._place
         self._counts["airborne"] += not tick["ts"] & CONTACT_TS
         if "cp" in tick and dot(tick["cp"][:3], self._normal) > 0.5:
@@ -69,6 +70,9 @@ class Gait:
 
     def _lead_on(self, place: Vec3, velocity: Sequence[float]) -> None:
         """Go on, without rounding, to where velocities lead from the place where the body had settled."""
+        if not all(map(math.isfinite, (*place, *velocity))):
+            self._keep("astray_metres", math.nan)
+            return
         if self._meant is None:
             self._meant = [Fraction(part) for part in place]
             return
@@ -77,4 +81,4 @@ class Gait:
         self._keep("astray_metres", math.dist(place, [float(part) for part in self._meant]))
 
     def _keep(self, name: str, value: float) -> None:
-        self._largest[name] = max(self._largest.get(name, 0.0), value)
+        self._largest[name] = max(self._largest.get(name, 0.0), value, key=rank)

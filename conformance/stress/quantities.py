@@ -6,6 +6,8 @@ from collections import Counter
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Final
 
+from conformance.exact.errors import rank
+
 if TYPE_CHECKING:
     from collections.abc import Mapping
 
@@ -72,10 +74,10 @@ class Tally:
         self._counts[name] += times
 
     def quantities(self) -> dict[str, float]:
-        """Return the largest and the median of each value, and the counts."""
+        """Return the largest and the median of each value, NaN being larger than all, and the counts."""
         told: dict[str, float] = {}
         for name, values in self._values.items():
-            ranked = sorted(values)
+            ranked = sorted(values, key=rank)
             told[name] = ranked[-1]
             told[name + MEDIAN] = ranked[len(ranked) // 2]
         return {**told, **{name: float(count) for name, count in self._counts.items()}}

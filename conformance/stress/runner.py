@@ -10,7 +10,9 @@ from dataclasses import dataclass
 from functools import partial
 from typing import TYPE_CHECKING, Final
 
+from conformance.candidates.table import describe
 from conformance.stress.families import FAMILIES
+from conformance.stress.findings import Findings
 from conformance.stress.models import make_models
 from conformance.workers import serve_parent, without_interrupts
 
@@ -20,7 +22,6 @@ if TYPE_CHECKING:
     from multiprocessing.queues import SimpleQueue
     from multiprocessing.synchronize import Event
 
-    from conformance.stress.findings import Findings
     from conformance.stress.models import Models, Spec
     from conformance.stress.settings import Settings
     from conformance.stress.sweep import Say, Sweep
@@ -74,6 +75,10 @@ class Plan:
         return [part for _, part in sorted(sized, key=lambda item: -item[0])]
 
 
+class StoppedError(Exception):
+    """The run was broken off while this process worked for it."""
+
+
 class Workshop:
     """What a process needs to run parts: the models, and the sweeps that it has made so far."""
 
@@ -83,7 +88,16 @@ class Workshop:
         self._sweeps: dict[str, Sequence[Sweep]] = {}
 
     def run(self, part: Part, say: Say) -> Findings:
-        """Run one part, and time it."""
+        """Run one part, and time it; what it ends with, if it is an error, is a failure of it alone."""
+        try:
+            return self._run(part, say)
+        except StoppedError:
+            raise
+        except Exception as error:  # noqa: BLE001 - the other parts go on
+            where = f"{part.family}, sweep {part.sweep}, part {part.part}"
+            return Findings(failures=[f"{where}: {describe(error)}"])
+
+    def _run(self, part: Part, say: Say) -> Findings:
         if part.family not in self._sweeps:
             self._sweeps[part.family] = FAMILIES[part.family](self._settings)
         begin = time.perf_counter()
@@ -150,10 +164,6 @@ def _latest(said: SimpleQueue[str]) -> str:
     while not said.empty():
         text = said.get()
     return text
-
-
-class StoppedError(Exception):
-    """The run was broken off while this process worked for it."""
 
 
 class Worker:

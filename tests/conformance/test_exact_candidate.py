@@ -150,6 +150,29 @@ def test_answers_are_rounded_once() -> None:
     assert single().unrounded(query) == single().answer(query)
 
 
+def test_a_number_beside_the_middle_of_two_float32_goes_to_the_nearer() -> None:
+    """Its nearest double is the middle: 1 + 2^-23 + 2^-24 (1 - 2^-79), which two roundings take upwards."""
+    pose: dict[str, Any] = {"cell": 1, "origin": [1.0 + 2.0**-23, 0.0, 0.0]}
+    pose["rotation"] = [1.0, 0.0, 0.0, 2.0**-40]
+    query = Query("frame_localtoglobal", {"pose": pose, "point": [2.0**-24, 0.0, 0.0]})
+    candidate = ExactCandidate()
+    exact, rounded = candidate.unrounded(query), candidate.answer(query)
+    assert isinstance(exact, Result)
+    assert isinstance(rounded, Result)
+    assert exact.fields["v"][0] == 1.0 + 2.0**-23 + 2.0**-24
+    assert (to_float32(exact.fields["v"][0]), rounded.fields["v"][0]) == (1.0 + 2.0**-22, 1.0 + 2.0**-23)
+    pose["rotation"] = [1.0, 0.0, 0.0, 0.0]
+    rounded = candidate.answer(query)
+    assert isinstance(rounded, Result)
+    assert rounded.fields["v"][0] == 1.0 + 2.0**-22  # the middle itself: to the even one
+
+
+def test_what_may_be_zero_is_told_as_zero() -> None:
+    """A wall through the origin: its normal is irrational, its constant is not."""
+    wall = ramp((0, 0, 0), (11, -7, 0), (11, -7, 2), (0, 0, 2))
+    assert exactly("polygon_make_plane", wall)["plane"][3] == 0.0
+
+
 def test_an_operation_that_does_not_exist_is_skipped() -> None:
     """As the oracle skips it."""
     assert ExactCandidate().answer(Query("fly", {})) == OracleCandidate().answer(Query("fly", {}))

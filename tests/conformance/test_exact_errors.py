@@ -73,6 +73,20 @@ def test_the_position_is_the_larger_of_current_and_check() -> None:
     assert (sample.position_metres, sample.largest) == (5.0, 4.0)
 
 
+@pytest.mark.parametrize("number", [math.nan, math.inf])
+@pytest.mark.parametrize("place", ["check", "curr"])
+def test_what_is_no_number_is_as_wrong_as_can_be(number: float, place: str) -> None:
+    """Wherever it stands, beside numbers that are right; in an answer that should have it, it is right."""
+    lost = state(**{place: {**POSE, "origin": [1.0, number, 3.0]}})
+    sample = field_errors(lost, STATE)
+    for error in (sample.position_metres, sample.largest):
+        assert error == pytest.approx(number, nan_ok=True)
+    assert field_errors(lost, lost).largest == 0.0
+    ticks = [{"r": 1, "pos": [0.0, 0.0, z]} for z in (0.0, number, 5.0)]
+    walk = field_errors({"ticks": ticks}, {"ticks": [{"r": 1, "pos": [0.0, 0.0, 0.0]}] * 3})
+    assert walk.position_metres == pytest.approx(number, nan_ok=True)
+
+
 @pytest.mark.parametrize(
     ("changed", "flips"),
     [

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from typing import Any
 
 import pytest
@@ -61,6 +62,23 @@ def test_a_fall_through_the_floor_is_counted() -> None:
     told = gait.quantities()
     assert (told["falls"], told["airborne"]) == (1.0, 1.0)
     assert told["height_metres"] == pytest.approx(2.0 * BELOW, abs=1e-6)
+
+
+@pytest.mark.parametrize("number", [math.nan, math.inf])
+def test_a_body_that_is_nowhere_is_as_wrong_as_can_be(number: float) -> None:
+    """Whatever comes after; the walk goes on."""
+    for course in (STANDSTILL, CIRCLES):
+        gait = settled(course)
+        gait.take(tick((number, 0.0, number)))
+        gait.take(tick(AT_REST, velocity=(number, 0.0, 0.0)))
+        gait.take(tick(AT_REST))
+        told = gait.quantities()
+        assert not told["height_metres"] <= 1e9
+        assert course.free == ("astray_metres" in told and math.isnan(told["astray_metres"]))
+    gait = Gait(CIRCLES)
+    for _ in range(SETTLED + 2):
+        gait.take(tick((math.nan, 0.0, 0.0)))
+    assert math.isnan(gait.quantities()["astray_metres"])
 
 
 def test_a_body_that_should_walk_and_does_not_is_stuck() -> None:

@@ -3,7 +3,11 @@
 from __future__ import annotations
 
 import json
+import math
+from itertools import permutations
 from typing import TYPE_CHECKING
+
+import pytest
 
 from conformance.exact.errors import ErrorSample
 from conformance.stress.findings import Findings, Picture, Reading, Worst
@@ -87,10 +91,12 @@ def test_worst_cases_are_files_named_after_sweep_and_quantity(tmp_path: Path) ->
 def test_json_has_everything() -> None:
     """Pictures as rows of digits."""
     found = rising()
+    found.readings.append(reading(9.0, contact_metres=math.nan, height_metres=math.inf))
     found.pictures.append(Picture("edge", ("x", "y"), ((0, 1), (2, 3))))
     told = json.loads(found.to_json({"seed": 7}))
     assert told["seed"] == 7
-    assert len(told["readings"]) == 8
+    assert len(told["readings"]) == 9
+    assert told["readings"][8]["quantities"] == {"contact_metres": "nan", "height_metres": "inf"}
     assert told["readings"][0]["quantities"] == {"contact_metres": 0.005}
     assert told["pictures"] == [{"name": "edge", "axes": ["x", "y"], "rows": ["01", "23"]}]
 
@@ -114,6 +120,17 @@ def test_a_tally_tells_largest_median_and_counts() -> None:
         "refused": 0.0,
         "effect_flips": 1.0,
     }
+
+
+@pytest.mark.parametrize("order", list(permutations([5.0, math.nan, 1.0])))
+def test_nan_is_the_largest_of_a_tally(order: tuple[float, ...]) -> None:
+    """Whenever it comes, it is not lost, and no budget allows it."""
+    tally = Tally()
+    for metres in order:
+        tally.add(ErrorSample(contact_metres=metres))
+    told = tally.quantities()
+    assert math.isnan(told["contact_metres"])
+    assert told["contact_metres_median"] == 5.0
 
 
 def test_tables_have_a_line_for_each_severity_and_each_broken_limit() -> None:
