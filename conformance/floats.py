@@ -5,7 +5,11 @@ from __future__ import annotations
 import math
 import struct
 from array import array
-from typing import Final
+from decimal import Decimal
+from typing import TYPE_CHECKING, Final
+
+if TYPE_CHECKING:
+    from collections.abc import Iterator
 
 _LARGEST_FLOAT32: Final = 3.4028234663852886e38
 _SIGN32: Final = 0x8000_0000
@@ -71,10 +75,20 @@ def shortest32(value: float) -> float:
     if not math.isfinite(rounded):
         return rounded
     for digits in range(1, _FLOAT32_DIGITS):
-        short = float(f"{rounded:.{digits}g}")
-        if to_float32(short) == rounded:
-            return short
+        for short in _decimals(rounded, digits):
+            if to_float32(short) == rounded:
+                return short
     return float(f"{rounded:.{_FLOAT32_DIGITS}g}")
+
+
+def _decimals(value: float, digits: int) -> Iterator[float]:
+    """Yield the nearest decimal of so many digits, and the next one away from zero.
+
+    That one may be meant where the nearest is not: above a power of two float32s are twice as far apart.
+    """
+    nearest = Decimal(f"{value:.{digits - 1}e}")
+    yield float(nearest)
+    yield float(nearest + Decimal((0, (1,), int(nearest.as_tuple().exponent))).copy_sign(nearest))
 
 
 def _rank(bits: int, sign: int) -> int:

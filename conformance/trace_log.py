@@ -17,6 +17,8 @@ if TYPE_CHECKING:
 
 SAME_NORMAL_COSINE: Final = 0.999
 """Two normals are nearly the same if the cosine of the angle between them is at least this (2.6 degrees)."""
+_ROUNDING: Final = 1e-9
+"""Metres by which a distance may be above its limit: numbers of a log are decimals, which doubles are not."""
 _MOST_KEYS: Final = 10_000
 """Distinct callers or planes that are counted one by one; a log may hold any number."""
 _EXAMPLES: Final = 20
@@ -179,11 +181,11 @@ class Judge:
             return "not a finite plane"
         if write.foot is not None:
             away = abs(_dot(plane.normal, write.foot) + plane.d) / math.hypot(*plane.normal)
-            return "" if away <= self._limit else f"{away:.3f} m from the foot"
+            return "" if away <= self._limit + _ROUNDING else f"{away:.3f} m from the foot"
         if previous is None or not previous.is_finite or not _nearly_parallel(plane, previous):
             return ""
         jump = abs(plane.d - previous.d)
-        return "" if jump <= self._limit else f"D jumps by {jump:.3f} m"
+        return "" if jump <= self._limit + _ROUNDING else f"D jumps by {jump:.3f} m"
 
 
 def _nearly_parallel(a: Plane, b: Plane) -> bool:

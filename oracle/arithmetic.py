@@ -98,13 +98,13 @@ def is_nan(x: float) -> bool:
     return answer
 
 
-# The C runtime's double functions; the last bit is the host library's (01, U7).
+# The C runtime's double functions, without errors (NM-9a); the last bit is the host library's (01, U7).
 
 
 def sin(x: float) -> float:
     """Sine of an angle in radians, in a register."""
     if x.__class__ is float:
-        return math.sin(x)
+        return math.nan if math.isinf(x) else math.sin(x)
     value: float = x.sin()  # type: ignore[attr-defined]
     return value
 
@@ -112,7 +112,7 @@ def sin(x: float) -> float:
 def cos(x: float) -> float:
     """Cosine of an angle in radians, in a register."""
     if x.__class__ is float:
-        return math.cos(x)
+        return math.nan if math.isinf(x) else math.cos(x)
     value: float = x.cos()  # type: ignore[attr-defined]
     return value
 
@@ -144,7 +144,7 @@ def atan2(y: float, x: float) -> float:
 def fmod(a: float, b: float) -> float:
     """Remainder of a division, with the sign of `a`, in a register."""
     if a.__class__ is float:
-        return math.fmod(a, b)
+        return math.nan if math.isinf(a) or b == 0.0 else math.fmod(a, b)
     value: float = a.fmod(b)  # type: ignore[attr-defined]
     return value
 

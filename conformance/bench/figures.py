@@ -56,13 +56,13 @@ def growth_exponent(sizes: Sequence[float], costs: Sequence[float]) -> float:
     ValueError
         If there are not two different sizes, or one number is not positive.
     """
+    if len(set(sizes)) < 2:
+        raise ValueError("one size does not grow")
     if min(*sizes, *costs) <= 0.0:
         raise ValueError("a power law is about positive numbers")
     x, y = [math.log(size) for size in sizes], [math.log(cost) for cost in costs]
     mean_x, mean_y = math.fsum(x) / len(x), math.fsum(y) / len(y)
     width = math.fsum((a - mean_x) ** 2 for a in x)
-    if width <= 0.0:
-        raise ValueError("one size does not grow")
     return math.fsum((a - mean_x) * (b - mean_y) for a, b in zip(x, y, strict=True)) / width
 
 

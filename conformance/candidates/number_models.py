@@ -56,19 +56,19 @@ class Register:
 
     def sin(self) -> Self:
         """Return the sine of an angle in radians."""
-        return type(self)(math.sin(self.value))
+        return type(self)(arithmetic.sin(self.value))
 
     def cos(self) -> Self:
         """Return the cosine of an angle in radians."""
-        return type(self)(math.cos(self.value))
+        return type(self)(arithmetic.cos(self.value))
 
     def asin(self) -> Self:
         """Return the arc sine in radians."""
-        return type(self)(math.asin(self.value))
+        return type(self)(arithmetic.asin(self.value))
 
     def acos(self) -> Self:
         """Return the arc cosine in radians."""
-        return type(self)(math.acos(self.value))
+        return type(self)(arithmetic.acos(self.value))
 
     def atan2(self, x: Number) -> Self:
         """Return the angle of the point (x, self) in radians."""
@@ -76,7 +76,7 @@ class Register:
 
     def fmod(self, b: Number) -> Self:
         """Return the remainder of a division, with the sign of this."""
-        return type(self)(math.fmod(self.value, self._other(b)))
+        return type(self)(arithmetic.fmod(self.value, self._other(b)))
 
     def power(self, y: Number) -> Self:
         """Return this to the power of a time that is not negative."""
@@ -115,10 +115,10 @@ class Register:
         return type(self)(abs(self.value))
 
     def __floor__(self) -> int:
-        return math.floor(self.value)
+        return arithmetic.floor(self.value)
 
     def __ceil__(self) -> int:
-        return math.ceil(self.value)
+        return arithmetic.ceil(self.value)
 
     def __lt__(self, other: Number) -> bool:
         return self.value < self._other(other)

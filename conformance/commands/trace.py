@@ -15,7 +15,7 @@ if TYPE_CHECKING:
 HELP: Final = "run a case and show every write of contact planes, walkables, state and cells, and by whom"
 EXAMPLES: Final = (
     "conformance trace origin-step-down-touching",
-    "conformance trace walk-cellar-descent --candidate engine --trace cell-transit",
+    "conformance trace walk-cellar-and-back --candidate engine --trace cell-transit",
     "conformance trace origin-step-down-touching --candidate bug:cell-origin --trace cp-write,bsp",
     "conformance trace my-cases/ramp.yaml::my-first-ramp --pose 3",
 )

@@ -16,6 +16,7 @@ from typing import TYPE_CHECKING, TypeAlias
 from flint import arb
 
 from conformance.exact.ties import UndecidedError, settle
+from oracle.errors import UndeterminedError
 
 if TYPE_CHECKING:
     from conformance.exact.residues import Origin
@@ -111,7 +112,7 @@ class Ball:
         if not quotient.arb.is_finite():
             return Ball(math.nan)
         whole = math.floor(quotient) if quotient >= 0.0 else math.ceil(quotient)
-        return self - Ball(b) * float(whole)
+        return self - Ball(b) * whole
 
     def power(self, y: Number) -> Ball:
         """Return this to the power of a time that is not negative."""
@@ -214,9 +215,9 @@ class Ball:
     def _integer(self) -> int:
         """Return the integer that this is; nothing else is left when balls do not tell two integers apart."""
         if not self.arb.is_finite():
-            raise ValueError(f"no integer: {self.arb}")
+            raise UndeterminedError(f"{self.arb} as a whole number (NM-9)")
         nearest = (self.arb.mid() + arb(0.5)).floor().unique_fmpz()
-        if nearest is None or not settle(self, Ball(float(int(nearest)))):
+        if nearest is None or not settle(self, Ball(int(nearest))):
             raise UndecidedError(f"floor of {self.arb}")
         return int(nearest)
 

@@ -186,7 +186,12 @@ def float32_step(x: float) -> float:
 
 
 def angle_between(a: Sequence[float], b: Sequence[float]) -> float:
-    """Return the angle between two vectors, radians; accurate for small ones too."""
+    """Return the angle between two vectors, radians; accurate for small ones too.
+
+    A vector without length has none, NaN, except to itself.
+    """
+    if not (any(a) and any(b)):
+        return math.nan if any(a) or any(b) else 0.0
     cross = float(np.linalg.norm(np.cross(a, b)))
     return math.atan2(cross, float(np.dot(a, b)))
 

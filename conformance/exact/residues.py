@@ -3,10 +3,13 @@
 What the oracle computes is built of float32s by ``+ - * / abs sqrt``. Such an expression can be computed
 modulo a prime in which its radicands have roots. Equal numbers have equal residues, for every choice of roots
 that respects the relations between them. Unequal numbers have them too with a chance of one in 2^126, as far
-as residues of what was not made with these primes in mind are as good as random. So equal residues of numbers
-whose balls overlap at 128 bits or more are taken for equality: short of an algebraic proof, but wrong less
-often than the machine. A relation that no tried choice of roots respects is not found; such a tie stays
-undecided, which is the safe side.
+as residues of what was not made with these primes in mind are as good as random. They are not for numbers
+that differ in the sign of a root alone, as ``s`` and ``sqrt(s * s)`` of a negative ``s`` do: modulo a prime
+no root is the positive one. But such numbers are apart by twice the root, and their balls overlap only if
+that is less than what 128 bits tell beside the rest. So equal residues of numbers whose balls overlap at 128
+bits or more are taken for equality: short of an algebraic proof, but wrong less often than the machine. A
+relation that no tried choice of roots respects is not found; such a tie stays undecided, which is the safe
+side.
 
 Values of transcendental functions count as unknowns that depend on their arguments (of sine and cosine it is
 known that their squares add up to 1): an equality that holds whatever their value is found, others are not.

@@ -79,5 +79,5 @@ class Tally:
         for name, values in self._values.items():
             ranked = sorted(values, key=rank)
             told[name] = ranked[-1]
-            told[name + MEDIAN] = ranked[len(ranked) // 2]
+            told[name + MEDIAN] = (ranked[(len(ranked) - 1) // 2] + ranked[len(ranked) // 2]) / 2.0
         return {**told, **{name: float(count) for name, count in self._counts.items()}}

@@ -151,7 +151,7 @@ def ground_beyond(wf: Array, wi: Ints, s: Array, cell: int, bx: float, by: float
     that is nothing but sea is a wall at any height (10, 7): neither is skipped; the caller has asked for the
     wall.
 
-    retail: OBJECTINFO::validate_walkable 0x0050D010, VW-7...VW-10; CLandCell::find_env_collisions 0x00532F20
+    retail: OBJECTINFO::validate_walkable 0x0050D010, VW-10...VW-12; CLandCell::find_env_collisions 0x00532F20
     """
     if not allows(s, PLAN_GROUND) or int(s[OI_STATE]) & IS_VIEWER:
         return False

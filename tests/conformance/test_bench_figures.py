@@ -39,7 +39,9 @@ def test_exponent_of_a_power_law(exponent: float, factor: float) -> None:
     assert growth_exponent(sizes, costs) == pytest.approx(exponent, abs=1e-9)
 
 
-@pytest.mark.parametrize(("sizes", "costs"), [([2.0, 2.0], [1.0, 3.0]), ([1.0, 2.0], [0.0, 1.0])])
+@pytest.mark.parametrize(
+    ("sizes", "costs"), [([2.0, 2.0], [1.0, 3.0]), ([6.0] * 3, [1.0, 1.1, 1.2]), ([1.0, 2.0], [0.0, 1.0])]
+)
 def test_exponent_needs_growth(sizes: list[float], costs: list[float]) -> None:
     """One size does not grow, and a power law has no zero."""
     with pytest.raises(ValueError, match=r"grow|positive"):

@@ -14,6 +14,7 @@ from hypothesis import strategies as st
 from conformance.candidates.number_models import Single, plain
 from oracle import arithmetic
 from oracle.arithmetic import f32
+from oracle.errors import UndeterminedError
 
 FLOATS = st.floats(-1e6, 1e6, width=32)
 TENTH = float(np.float32(0.1))
@@ -80,3 +81,14 @@ def test_answers_become_plain() -> None:
     fields = {"a": Single(0.5), "b": [Single(1.0), 2, None], "c": {"d": (Single(3.0),)}, "e": "OK"}
     assert plain(fields) == {"a": 0.5, "b": [1.0, 2, None], "c": {"d": [3.0]}, "e": "OK"}
     assert type(plain(fields)["a"]) is float
+
+
+@pytest.mark.parametrize("x", [math.inf, -math.inf, math.nan])
+def test_what_is_no_number_is_so_in_every_model(x: float) -> None:
+    """Its functions are NaN, and which whole number it is nobody knows, as in retail's model."""
+    for function in (arithmetic.sin, arithmetic.cos):
+        assert arithmetic.is_nan(function(Single(x)))
+    assert arithmetic.is_nan(arithmetic.fmod(Single(x), 360.0))
+    for function in (arithmetic.floor, arithmetic.ceil):
+        with pytest.raises(UndeterminedError):
+            function(Single(x))

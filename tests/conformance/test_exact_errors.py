@@ -73,6 +73,13 @@ def test_the_position_is_the_larger_of_current_and_check() -> None:
     assert (sample.position_metres, sample.largest) == (5.0, 4.0)
 
 
+def test_a_vector_without_length_has_no_angle() -> None:
+    """Not 0, as if it were right; but to itself."""
+    assert math.isnan(angle_between((0.0, 0.0, 0.0), (0.0, 0.0, 1.0)))
+    assert math.isnan(angle_between((0.0, 0.0, 1.0), (0.0, 0.0, 0.0)))
+    assert angle_between((0.0, 0.0, 0.0), (0.0, 0.0, -0.0)) == 0.0
+
+
 @pytest.mark.parametrize("number", [math.nan, math.inf])
 @pytest.mark.parametrize("place", ["check", "curr"])
 def test_what_is_no_number_is_as_wrong_as_can_be(number: float, place: str) -> None:

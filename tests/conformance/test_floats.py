@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 import struct
 
+import numpy as np
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
@@ -95,6 +96,14 @@ def test_shortest_decimal_reads_back(value: float) -> None:
     """The short decimal rounds to the same bits, sign of zero included."""
     assert bits32(float(decimal32(value))) == bits32(value)
     assert bits32(shortest32(value)) == bits32(value)
+
+
+@pytest.mark.parametrize("exponent", range(-149, 128))
+@pytest.mark.parametrize("sign", [1.0, -1.0])
+def test_the_shortest_decimal_of_a_power_of_two(exponent: int, sign: float) -> None:
+    """Above one float32s are twice as far apart as below: NumPy's search knows that, too."""
+    value = sign * 2.0**exponent
+    assert shortest32(value) == float(str(np.float32(value)))
 
 
 @pytest.mark.parametrize(

@@ -122,6 +122,14 @@ def test_a_tally_tells_largest_median_and_counts() -> None:
     }
 
 
+def test_the_median_of_an_even_number_is_between_two() -> None:
+    """As of the errors that `conformance errors` tells."""
+    tally = Tally()
+    for metres in (4.0, 1.0, 2.0, 8.0):
+        tally.add(ErrorSample(contact_metres=metres))
+    assert tally.quantities()["contact_metres_median"] == 3.0
+
+
 @pytest.mark.parametrize("order", list(permutations([5.0, math.nan, 1.0])))
 def test_nan_is_the_largest_of_a_tally(order: tuple[float, ...]) -> None:
     """Whenever it comes, it is not lost, and no budget allows it."""

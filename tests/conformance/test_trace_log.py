@@ -67,7 +67,10 @@ def test_the_distance_is_measured_along_the_normal() -> None:
 
 
 def test_a_jump_is_suspect_without_a_foot() -> None:
-    """The line's own plane before is what counts; the limit itself is allowed."""
+    """The line's own plane before is what counts; the limit itself is allowed, as decimals say it."""
+    lines = [cp("n=(0,0,1) D=-94.020", "n=(0,0,1) D=-96.00")]
+    assert not read_log(lines, Rule(radius=0.48, step_height=1.5)).suspects
+    assert read_log(lines, Rule(radius=0.47, step_height=1.5)).suspects
     assert reasons(cp(FLOOR, "n=(0,0,1) D=-96.0"), cp(FLOOR, "n=(0,0,1) D=-0.000")) == [
         (2, "D jumps by 94.000 m")
     ]

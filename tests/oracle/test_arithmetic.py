@@ -141,3 +141,14 @@ def test_what_is_no_number_has_no_whole_one(x: float) -> None:
         with pytest.raises(UndeterminedError, match=f"not known: {x} as a whole number"):
             function(x)
     assert (floor(-0.5), ceil(-0.5), floor(2.0**80)) == (-1, 0, 2**80)
+
+
+def test_functions_of_what_is_no_number_are_none() -> None:
+    """The masked x87 gives NaN, no error (NM-9a)."""
+    for function in (sin, cos):
+        assert is_nan(function(math.inf))
+        assert is_nan(function(-math.inf))
+        assert is_nan(function(math.nan))
+    assert is_nan(fmod(math.inf, 360.0))
+    assert is_nan(fmod(1.0, 0.0))
+    assert fmod(1.0, math.inf) == 1.0
