@@ -36,9 +36,9 @@ retail (both sides of a limit are two cases), or, if no input could, list it wit
 conformance/mutation/equivalents.yaml. An entry about a mutant that is noticed, or that is not there, is a
 mistake as well.
 
-Findings are written to the journal one by one. With --resume a run goes on where it was ended; without, a
-journal that holds findings is refused. After a
-change of the oracle or of the cases it judges anew, and first asks what noticed a mutant the last time.
+Findings are written to the journal one by one; one that holds some is only gone on with. With --resume a run
+goes on where it was ended; after a change of the oracle or of the cases it judges anew, and first asks what
+noticed a mutant the last time.
 
 Exit codes: 0 the score is reached, 1 it is not, or an entry is wrong, 2 usage, 4 nothing ran, 130 Ctrl-C.
 """
@@ -148,8 +148,6 @@ def _judged(work: Work, plans: Sequence[Plan]) -> list[Finding]:
     with Progress() as progress:
         try:
             return judge(work, plans, progress.say)
-        except FileExistsError as error:
-            raise UsageError(f"{error}: --resume goes on with it, another --journal begins anew") from error
         except JournalError as error:
             raise UsageError(str(error)) from error
         except WorkerLostError as error:

@@ -36,9 +36,7 @@ class Journal:
     Raises
     ------
     JournalError
-        The file holds something else.
-    FileExistsError
-        It holds findings that are not to be gone on with.
+        The file holds something else, or findings that are not to be gone on with.
     OSError
         It cannot be read.
     """
@@ -48,7 +46,9 @@ class Journal:
         self._digest = digest
         lines = list(_read(path)) if path.exists() else []
         if len(lines) > 1 and not resume:
-            raise FileExistsError(f"{path} holds findings already")
+            raise JournalError(
+                f"{path} holds findings already: --resume goes on with it, another --journal begins anew"
+            )
         self._is_current = bool(lines) and lines[0].get(_SUITE) == digest
         self._records = {_key(line): line for line in lines[1:]}
         self._writer: JournalWriter | None = None

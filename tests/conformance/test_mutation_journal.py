@@ -46,7 +46,7 @@ def test_after_a_change_a_finding_is_a_hint(path: Path) -> None:
 
 def test_without_resume_nothing_is_known(path: Path) -> None:
     """And the file begins anew, but not one that holds findings, which would be lost."""
-    with pytest.raises(FileExistsError, match=r"mutants\.jsonl holds findings already"):
+    with pytest.raises(JournalError, match=r"mutants\.jsonl holds findings already"):
         Journal(path, "old", resume=False)
     path.write_text('{"suite": "old"}\n', encoding="utf-8")
     with Journal(path, "old", resume=False) as journal:
