@@ -152,7 +152,10 @@ def fmod(a: float, b: float) -> float:
 def power(x: float, y: float) -> float:
     """Return `x` to the power of `y`, a time that is not negative, in a register; NaN where C gives NaN."""
     if x.__class__ is float and y.__class__ is float:
-        return math.nan if x < 0.0 and not y.is_integer() else math.pow(x, y)
+        try:
+            return math.pow(x, y)
+        except ValueError:  # NM-9a
+            return math.inf if x == 0.0 else math.nan
     if x.__class__ is float:
         raised: float = y.raising(x)  # type: ignore[attr-defined]
         return raised

@@ -132,6 +132,7 @@ def test_a_negative_number_has_only_whole_powers() -> None:
     assert power(-2.0, 3.0) == -8.0
     assert is_nan(power(-2.0, 0.5))
     assert (power(0.0, 0.5), power(0.0, 0.0)) == (0.0, 1.0)
+    assert power(0.0, -0.5) == math.inf
 
 
 @pytest.mark.parametrize("x", [math.inf, -math.inf, math.nan])
