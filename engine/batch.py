@@ -75,7 +75,7 @@ def resolve_many(
     world : World
     moves : sequence of Move, or records of `engine.layout.QUERY_DTYPE`
         Rows are made by `engine.query.move_rows`; of their numbers only those that name cells, objects and
-        spheres are looked at again, and how many steps they ask for.
+        spheres are looked at again, and how many steps they take.
     threads : int
         How many share them; the results are the same for any number.
     plan : Plan

@@ -19,6 +19,8 @@ EPS5: Final = EPS * 5.0
 """Tolerance of a valid quaternion's squared length (NM-8)."""
 EPS2: Final = EPS * EPS
 """Smallest squared offset of a sub-step, square metres; exact product (04, 0.2)."""
+WHOLE: Final = 2.0**52
+"""From here on every double is a whole number, and soon larger than integers are."""
 MAX_STEPS: Final = 200_000
 """Steps of a move, where retail has no bound: a human (radius 0.48 m) crosses the whole map, 49 km, by its
 diagonal in 145,000."""

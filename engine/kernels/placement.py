@@ -116,7 +116,7 @@ def _find_placement_pos(wf: Array, wi: Ints, s: Array) -> bool:
     if s[PLACEMENT_ALLOWS_SLIDING] == 0.0:
         return False
     r = s[LOCAL_SPHERE + RADIUS]
-    if r < SPECK:
+    if 0.0 <= r < SPECK:
         s[STATUS] = STATUS_ENDLESS
         return False
     small = r < SMALL_RADIUS

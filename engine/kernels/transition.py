@@ -15,6 +15,7 @@ from engine.constants import (
     PATH_CLIPPED,
     TRANSITION_ATTEMPTS,
     TRANSITION_INSERT,
+    WHOLE,
 )
 from engine.kernels.adjust import adjust_offset
 from engine.kernels.cells import build_cell_array
@@ -93,10 +94,10 @@ def calc_num_steps(r: float, viewer: bool, x: float, y: float, z: float) -> tupl
             return 0.0, 0.0, 0.0, 0.0
         q = length / r
         sx, sy, sz = _scaled(1.0 / q, x, y, z)
-        return sx, sy, sz, math.floor(q) + 1.0
+        return sx, sy, sz, (float(math.floor(q)) if q < WHOLE else q) + 1.0
     q = length / (1.0 * r)
     if q > 1.0:
-        n = float(math.ceil(q))
+        n = float(math.ceil(q)) if q < WHOLE else q
         sx, sy, sz = _scaled(1.0 / n, x, y, z)
         return sx, sy, sz, n
     if x != 0.0 or y != 0.0 or z != 0.0:
@@ -127,9 +128,6 @@ def _find_transitional_position(wf: Array, wi: Ints, s: Array) -> bool:
     viewer, free = state & IS_VIEWER != 0, state & FREE_ROTATE != 0
     ox, oy, oz = position_get_offset(s, BEGIN_POS, s, END_POS)
     sx, sy, sz, steps = calc_num_steps(s[LOCAL_SPHERE + RADIUS], viewer, ox, oy, oz)
-    if steps > MAX_STEPS + 1.0:  # One more than what is asked for in words: a viewer has a last step of none.
-        s[STATUS] = STATUS_ENDLESS
-        return False
     if free:
         _take_end_rotation(s)
     set_check_pos(s, CURR_POS, s[CURR_CELL])
@@ -143,6 +141,9 @@ def _find_transitional_position(wf: Array, wi: Ints, s: Array) -> bool:
     ts = OK
     i = 0.0
     while i < steps:
+        if i > MAX_STEPS:  # one more than a way has that is asked for in words: a viewer's last step
+            s[STATUS] = STATUS_ENDLESS
+            return False
         if viewer and i == steps - 1.0:
             sx, sy, sz = _last_viewer_step(s, ox, oy, oz, sx, sy, sz, steps)
         x, y, z = adjust_offset(s, sx, sy, sz)

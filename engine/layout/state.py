@@ -180,4 +180,4 @@ STATUS_UNDETERMINED: Final = frozen(2)
 STATUS_STRANGE: Final = frozen(3)
 """The row names what its world doesn't have: a cell, an object, more spheres than a mover may have."""
 STATUS_ENDLESS: Final = frozen(4)
-"""The row asks for more than `engine.constants.MAX_STEPS` steps, or puts down less than a `SPECK`."""
+"""The row takes more than `engine.constants.MAX_STEPS` steps, or puts down less than a `SPECK`."""
